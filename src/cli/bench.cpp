@@ -28,7 +28,8 @@ constexpr const char* kBenchUsage = "whit bench SCENE... [options]";
 constexpr const char* kBenchSummary =
     "Measures the time of frames by stage and by kind of ray. The frames of the runs of --widths, "
     "--threads-scaling and the --ab options take turns, so that other load of the machine affects "
-    "all of them alike.";
+    "all of them alike. Where the kernel lets a program read the processor's counters "
+    "(perf_event_paranoid), instructions, cycles and cache misses for a ray are told too.";
 
 // An option whose values are measured as separate runs, which take turns.
 struct Series {
@@ -183,6 +184,7 @@ int benchCommand(const Words& words) {
   if (!parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
+  processorCounters();  // before the threads that they count
   std::vector<RunSummary> summaries;
   BenchRuns runs;
 

@@ -2,11 +2,13 @@
 // machine affects all of them alike.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/event_counters.h"
 #include "core/machine_limits.h"
 #include "engine/engine.h"
 #include "inspect/floor.h"
@@ -36,7 +38,15 @@ class BenchRun {
   void measure(bool floor) {
     // Our own threads wait for the frame, so all other tasks are of other programs.
     summary_.otherTasks.push_back(otherRunnableTasks());
+    const std::vector<double> before = readCounters(processorCounters());
     summary_.frames.push_back(engine_.render({}, film_).stats);
+
+    const std::vector<double> after = readCounters(processorCounters());
+    summary_.events.resize(std::min(before.size(), after.size()));
+    for (std::size_t i = 0; i < summary_.events.size(); ++i) {
+      summary_.events[i] += after[i] - before[i];
+    }
+
     summary_.imageHash = digestOf(film_.image);
     if (floor)
       summary_.floorMs.push_back(measureFloor(engine_.renderer(), engine_.camera(), film_));

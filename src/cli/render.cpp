@@ -91,7 +91,8 @@ OptionList listOptions(RenderJob& job) {
                job.time);
     list.value({"target", "ERROR"},
                "choose them for the least time within an error, as 0.5codes or flip=0.01",
-               job.target);
+               job.target)
+        .everyday = false;
     list.value({"frames", "A..B"},
                "frames of the animation and the camera path; FILE has #### for the number",
                job.frames);
@@ -100,11 +101,13 @@ OptionList listOptions(RenderJob& job) {
   list.value({"fps", "N", 0.001, 1e6}, "frames per second", job.fps);
   list.flag("resume",
             "keep images that are complete and were made with the same options of the same scene",
-            job.resume);
+            job.resume)
+      .everyday = false;
   list.value(kExrOption,
              "pixels of an EXR: floats, compressed or not; half floats, compressed; or half floats "
              "with OpenEXR's lossy DWAA compression",
-             job.exr);
+             job.exr)
+      .everyday = false;
   list.flag("stats", "prints the stages with their times, and the rays", job.stats);
   list.value({"json", "FILE"}, "settings, times and counts as JSON; - is standard output",
              job.json);
@@ -155,12 +158,10 @@ void addNamedChannels(RenderJob& job) {
     const std::optional<Channel> channel = channelNamedBy(output, kept);
     if (channel) named = named.with(*channel);
     holdsAll |= isExr && !channel;
-    refuseIf(channel == Channel::position && !isExr,
-             "'" + output + "': positions do not fit into a PNG: write an EXR");
+    refuseIf(channel && needsFloats(*channel) && !isExr,
+             "'" + output + "': " + namesOf({*channel}) + "s do not fit into a PNG: write an EXR");
 
-    const std::string asPng = std::filesystem::path(output).replace_extension(".png").string();
-    refuseIf(isJpeg(output) && channelNamedBy(asPng, ChannelSet()),
-             "'" + output + "': a JPEG holds no channel: write '" + asPng + "'");
+    if (isJpeg(output)) requireNoChannelName(output);
   }
 
   const ChannelSet homeless = holdsAll ? ChannelSet() : kept.without(named);
@@ -343,12 +344,13 @@ class ImageWriter {
   // Moves the camera of a turntable, or else the scene, to where frame `frame` shows it.
   void moveTo(int frame) {
     if (job_.turntable) {
-      camera_ = turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
+      engine_.remember(cameraAt(frame - 1));
+      camera_ = cameraAt(frame);
       return;
     }
 
     const Stopwatch stopwatch;
-    engine_.setTime(frame / job_.fps);
+    moveToTime(frame / job_.fps);
     engine_.update();
 
     // A scene that has moved has another digest, by which --resume recognizes its images.
@@ -357,6 +359,15 @@ class ImageWriter {
     run_.updateMs.push_back(stopwatch.ms());
     sceneDigest_ = digestOf(engine_.scene());
     run_.tracedAndWrittenMs += stopwatch.ms();
+  }
+
+  // Moves the scene; the channel "motion" counts from the frame before.
+  void moveToTime(double seconds) {
+    if (engine_.options().channels.has(Channel::motion)) {
+      engine_.setTime(seconds - 1 / job_.fps);
+      engine_.remember();
+    }
+    engine_.setTime(seconds);
   }
 
   // Renders a frame and starts writing it; the files are complete after finish(). With --resume
@@ -412,6 +423,10 @@ class ImageWriter {
   RunSummary summary() {
     const double loadMs = engine_.opened()->loadMs;
     return summarize(engine_.scene(), engine_.options(), engine_.renderer(), films_[0], loadMs);
+  }
+
+  Camera cameraAt(int frame) const {
+    return turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -545,6 +560,7 @@ int render(RenderJob& job) {
   ImageWriter writer(job, engine, progress.get());
 
   if (job.frames.empty()) {
+    if (const auto seconds = job.common.load.instant.seconds) writer.moveToTime(*seconds);
     writer.write(job.outputs, progress.get());
   } else {
     writeFilm(job, writer, progress.get());

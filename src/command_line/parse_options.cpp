@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "io/files.h"
 #include "io/json_reader.h"
+#include "io/scene/scene_sections.h"
 
 namespace whit::cli {
 
@@ -107,9 +108,18 @@ std::string textOf(const Json& json) {
 // Adds the camera that a file describes to the scene, under the name of the file, and chooses it.
 void takeCameraFile(const std::string& file, CommonOptions& common) {
   constexpr std::uint64_t kBytesLimit = 1u << 20;
-  const Json camera = parseJson(readTextFile(file, kBytesLimit), file);
+  const JsonDocument document{file, parseJson(readTextFile(file, kBytesLimit), file), {}};
+
+  // It is read here as well, so that errors name its file in place of the scene's.
+  JsonObject object{JsonValue(document)};
+  object.need("eye");
+  object.need("at");
+  Camera camera;
+  readCamera(object, camera);
+  if (!object.has("motion")) object.finish();
+
   const std::string name = std::filesystem::path(file).stem().string();
-  common.load.settings.push_back("/cameras/" + escapePointer(name) + "=" + textOf(camera));
+  common.load.settings.push_back("/cameras/" + escapePointer(name) + "=" + textOf(document.root));
   common.render.camera = name;
 }
 
@@ -175,16 +185,18 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              "their files have them, without animations)",
              common.load.instant.seconds);
   list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
-             common.load.instant.animation);
+             common.load.instant.animation)
+      .everyday = false;
   list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
             common.load.settings)
       .set = [&common](const std::string& name) {
     common.load.settings.push_back("/variant=" + textOf(name));
   };
-  list.many({"viewpoint", "outside|inside"},
-            "side from which a model is seen, in place of the cameras in its file",
-            common.load.settings)
-      .set = [&common](const std::string& side) {
+  OptionList::Entry& viewpoint = list.many(
+      {"viewpoint", "outside|inside"},
+      "side from which a model is seen, in place of the cameras in its file", common.load.settings);
+  viewpoint.everyday = false;
+  viewpoint.set = [&common](const std::string& side) {
     common.load.settings.push_back("/viewpoint=" + textOf(side));
   };
   list.value({"azimuth", "DEG", -360, 360},

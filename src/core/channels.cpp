@@ -69,6 +69,9 @@ void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
   keepFloats(Channel::normal, {v.normal.x, v.normal.y, v.normal.z});
   keepFloats(Channel::albedo, {v.albedo.x, v.albedo.y, v.albedo.z});
   keepFloats(Channel::uv, {v.uv.x, v.uv.y});
+  keepFloats(Channel::roughness, {v.roughness});
+  keepFloats(Channel::metallic, {v.metallic});
+  keepFloats(Channel::motion, {v.motion.x, v.motion.y});
   keepNumber(Channel::object, v.object);
   keepNumber(Channel::material, v.material);
   keepNumber(Channel::triangle, v.triangle);

@@ -28,9 +28,12 @@ enum class Channel : std::uint8_t {
   triangle,
   rays,
   alpha,
-  error
+  error,
+  roughness,
+  metallic,
+  motion
 };
-inline constexpr int kChannelCount = 11;
+inline constexpr int kChannelCount = 14;
 
 struct ChannelInfo {
   std::string_view name;
@@ -49,8 +52,16 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
      {"triangle", true, 1, {"id"}},
      {"rays", true, 1, {"count"}},
      {"alpha", false, 1, {"A"}},
-     {"error", false, 2, {"standard", "ended"}}}};
+     {"error", false, 2, {"standard", "ended"}},
+     {"roughness", false, 1, {"Y"}},
+     {"metallic", false, 1, {"Y"}},
+     {"motion", false, 2, {"X", "Y"}}}};
 inline constexpr const ChannelInfo& infoOf(Channel channel) { return entryOf(kChannels, channel); }
+
+// True for channels whose values have no fixed range, so that they do not fit into a PNG.
+inline constexpr bool needsFloats(Channel channel) {
+  return channel == Channel::position || channel == Channel::motion;
+}
 
 using ChannelSet = EnumSet<Channel, kChannelCount>;
 
@@ -69,7 +80,8 @@ struct ChannelValues {
   float distance = kInfinity;
   Vec3f position, normal;
   Rgb albedo;
-  Vec2f uv;
+  Vec2f uv, motion;
+  float roughness = 0, metallic = 0;
   std::uint32_t object = kNoNumber, material = kNoNumber, triangle = kNoNumber;
 };
 

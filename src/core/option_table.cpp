@@ -149,7 +149,7 @@ std::vector<std::string> sceneOptionNames() {
   forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
     // A scene may set options that change its picture, but not those of loading and of kernels.
     const bool ofFrames = spec.rebuilds == Rebuild::frame || spec.rebuilds == Rebuild::tables;
-    if (spec.changesPicture && ofFrames && spec.name != "effects") names.emplace_back(spec.name);
+    if (spec.changesPicture && spec.inScenes && ofFrames) names.emplace_back(spec.name);
   });
 
   return names;

@@ -41,6 +41,7 @@ struct OptionSpec {
   Rebuild rebuilds = Rebuild::frame;
   // False for options that share out the work: the picture does not depend on them by design.
   bool changesPicture = true;
+  bool inScenes = true;  // a scene file may state it, if it changes the picture of a frame
   Tab tab = Tab::knobs;
   // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
   // other values against it, and not at all if this is empty.
@@ -186,8 +187,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.spp},
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
-                      "one elsewhere; with --glossy or --indirect all pixels get all samples",
-              .everyday = true},
+                      "one elsewhere; with --glossy or --indirect all pixels get all samples"},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
@@ -258,8 +258,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
                       "bilinear",
               .rebuilds = Rebuild::tables,
-              .cheapest = "nearest",
-              .everyday = true},
+              .cheapest = "nearest"},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "offset of ray origins from the surface, against self-intersection: the "
@@ -290,8 +289,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.simd},
       Option{{.name = "mode", .words = "packets|reference",
               .help = "vector pipeline in float, or the scalar recursive reference in double",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none,
-              .everyday = true},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
               .help = "run each stage over one tile at a time, or over the whole frame",
@@ -316,7 +314,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",
-              .rebuilds = Rebuild::tables,
+              .rebuilds = Rebuild::tables, .inScenes = false,
               .cheapest = "auto"},
              o.effects},
       Option{{.name = "disable", .words = "a,b",
@@ -348,9 +346,10 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
-                      "triangle, rays; alpha, the share that surfaces cover; and error, the "
-                      "standard error of the mean of the samples and the share of light that depth "
-                      "and cutoff ended",
+                      "triangle, rays, roughness, metallic; motion, in pixels since the frame "
+                      "before; alpha, the share that surfaces cover; and error, the standard error "
+                      "of the mean of the samples and the share of light that depth and cutoff "
+                      "ended",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},

@@ -161,6 +161,7 @@ void Engine::readAgain(const SceneSource& source, const LoadOptions& load, Progr
   for (const auto& [pointer, transform] : transforms_) setPlace(next->scene, pointer, transform);
 
   forgetRenderer();
+  earlier_.reset();
   opened_ = std::move(next);
   document_.reset();
   moved_ = !scene().motion.empty();
@@ -185,6 +186,12 @@ void Engine::lookThrough(const std::optional<Camera>& camera) {
 Camera Engine::camera() const {
   if (!lookedThrough_) return chooseCamera(scene(), options_);
   return aimed(*lookedThrough_, scene().origin, options_);
+}
+
+void Engine::remember(const std::optional<Camera>& camera) {
+  update();
+  if (!options_.channels.has(Channel::motion)) return;
+  earlier_ = rememberView(scene(), camera ? *camera : this->camera());
 }
 
 void Engine::update() {
@@ -230,6 +237,10 @@ Picture Engine::render(const PictureRequest& request, Film& film) {
   Renderer& renderer = prepare(request.progress);
   const Camera camera = request.camera ? *request.camera : this->camera();
   Picture picture;
+
+  const std::optional<EarlierView> before = earlier_;
+  remember(camera);
+  renderer.setEarlier(before ? before : earlier_);
 
   // The options that are chosen for a budget hold for this picture alone: the next prepare()
   // replaces them.

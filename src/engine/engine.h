@@ -82,6 +82,10 @@ class Engine {
   // Returns the camera of the next picture, changed by the options. Call it after prepare().
   Camera camera() const;
 
+  // Keeps what a picture would show now. The channel "motion" of the next picture counts from it;
+  // otherwise it counts from the last picture that had the channel.
+  void remember(const std::optional<Camera>& camera = {});
+
   // Moves the scene to the time and the transforms that were set.
   void update();
   // Brings scene and renderer up to date, and returns the renderer. An automatic exposure is chosen
@@ -122,6 +126,7 @@ class Engine {
   std::map<std::string, Affine> transforms_;  // by JSON pointer of the item
   bool moved_ = false;                    // time or transforms have changed
   std::optional<Camera> lookedThrough_;
+  std::optional<EarlierView> earlier_;
 
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<RayQueries> queries_;

@@ -183,17 +183,9 @@ std::optional<ScreenLine> LineView::see(Vec3d from, Vec3d to) const {
   }
   if (a < near_) from = from + (to - from) * ((near_ - a) / (b - a));
 
-  const auto [x1, y1] = project(from);
-  const auto [x2, y2] = project(to);
+  const auto [x1, y1] = imagePlace(frame_, from);
+  const auto [x2, y2] = imagePlace(frame_, to);
   return ScreenLine{x1, y1, x2, y2};
-}
-
-std::array<double, 2> LineView::project(const Vec3d& point) const {
-  const Vec3d d = point - frame_.eye;
-  const double depth = frame_.orthographic ? 1 : dot(d, frame_.forward);
-  const double x = dot(d, frame_.right) / (dot(frame_.right, frame_.right) * depth);
-  const double y = dot(d, frame_.up) / (dot(frame_.up, frame_.up) * depth);
-  return {frame_.centerX + x - frame_.skew * y, frame_.centerY - y};
 }
 
 }  // namespace whit

@@ -55,8 +55,6 @@ class LineView {
   std::optional<ScreenLine> see(Vec3d from, Vec3d to) const;
 
  private:
-  std::array<double, 2> project(const Vec3d& point) const;
-
   CameraFrame frame_;
   double near_;
 };

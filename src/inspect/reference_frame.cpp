@@ -12,7 +12,8 @@
 namespace whit {
 
 reference::Settings referenceSettings(const Renderer& renderer) {
-  return {renderer.options(), renderer.plan().effects, renderer.machine().threads};
+  return {renderer.options(), renderer.plan().effects, renderer.machine().threads,
+          renderer.earlier()};
 }
 
 FrameStats renderReference(Renderer& renderer, const Camera& camera, Film& film,

@@ -111,6 +111,7 @@ void Image::write(const std::string& path) const {
     } else if (extension == ".png") {
       writePng(path, film.display, data_->metadata);
     } else if (extension == ".jpg" || extension == ".jpeg") {
+      requireNoChannelName(path);
       writeTextFile(path, encodeJpeg(film.display));
     } else {
       throwUsage("'" + path + "': expected a name that ends in .exr, .png or .jpg");

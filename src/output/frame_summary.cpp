@@ -79,6 +79,15 @@ double lanesFilled(const RayTally& tally) {
   return tally.lanes == 0 ? 0 : static_cast<double>(tally.rays) / static_cast<double>(tally.lanes);
 }
 
+std::vector<double> eventsPerRay(const RunSummary& run) {
+  std::uint64_t rays = 0;
+  for (const FrameStats& frame : run.frames) rays += frame.allRays();
+
+  std::vector<double> perRay = run.events;
+  for (double& count : perRay) count /= static_cast<double>(rays);
+  return perRay;
+}
+
 double mraysPerSecond(std::uint64_t rays, double ms) {
   return ms > 0 ? static_cast<double>(rays) / ms / 1e3 : 0;
 }
@@ -193,6 +202,11 @@ std::string stageTable(const RunSummary& run) {
     const double floor = quantile(run.floorMs, 0.5);
     text += formatted("  floor %.2f ms (Embree alone, the same rays); frame over floor %.2f\n",
                       floor, floor > 0 ? frame.frameMs / floor : 0);
+  }
+
+  const std::vector<double> perRay = eventsPerRay(run);
+  for (std::size_t i = 0; i < perRay.size(); ++i) {
+    text += formatted("  %s a ray %.4g\n", kProcessorEvents[i].name.data(), perRay[i]);
   }
 
   return run.otherTasks.empty() ? text : text + loadText(run);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/event_counters.h"
 #include "core/options.h"
 #include "core/quantile.h"
 #include "render/renderer.h"
@@ -23,6 +24,8 @@ struct RunSummary {
   double loadMs = 0, buildMs = 0;
   std::vector<FrameStats> frames;  // counted ones; none: all images were there
   std::vector<double> floorMs;     // empty without --floor
+  // Sums over the frames of kProcessorEvents; empty where they were not counted.
+  std::vector<double> events;
   // Tasks of other programs that wanted a processor before each frame; empty if nobody looked.
   std::vector<double> otherTasks;
   int processors = 0;     // number of the machine's processors
@@ -61,6 +64,8 @@ RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
 // Live lanes over lanes sent to Embree; 0 where nothing was sent.
 double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);
+// The counts of kProcessorEvents for a ray of the frames; empty where they were not counted.
+std::vector<double> eventsPerRay(const RunSummary& run);
 
 // "2 triangles", "3 spheres" or both.
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);

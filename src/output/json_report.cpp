@@ -71,6 +71,11 @@ void addFrames(const RunSummary& run, Json& json) {
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
 
+  const std::vector<double> perRay = eventsPerRay(run);
+  for (std::size_t i = 0; i < perRay.size(); ++i) {
+    json["per_ray"][std::string(kProcessorEvents[i].name)] = perRay[i];
+  }
+
   if (!run.otherTasks.empty()) json["other_tasks"] = quantile(run.otherTasks, 0.5);
   if (!run.updateMs.empty()) json["updateScene_ms"] = quantile(run.updateMs, 0.5);
   if (!run.writingMs.empty()) {

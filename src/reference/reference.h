@@ -22,6 +22,7 @@
 #include "sampling/sample_pattern.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
+#include "surfaces/channel_values.h"
 #include "surfaces/choose_surface.h"
 
 namespace whit::reference {
@@ -30,6 +31,7 @@ struct Settings {
   RenderOptions options;
   EffectSet effects = EffectSet::all();  // effects that the scene has and that are not disabled
   int threads = 1;                       // used in place of the options' number
+  const EarlierView* earlier = nullptr;  // where the channel "motion" begins
 };
 
 // Counters of the rays traced, by their kind.
@@ -147,6 +149,7 @@ class Tracer {
   const PathObserver& observer_;
   RenderOptions options_;
   EffectSet effects_;
+  const EarlierView* earlier_;
   std::vector<Vec2f> samples_;
   std::optional<MipMaps> maps_;  // empty unless lookups are trilinear
 };

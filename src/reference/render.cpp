@@ -162,6 +162,13 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   values.position = Vec3f(scene_.inFile(surfel.position));
   values.normal = Vec3f(surfel.shadingNormal);
   values.albedo = Rgb(surfel.diffuse);
+  if (earlier_) {
+    const Candidate at{candidate.triangle, candidate.instance, hit.u, hit.v};
+    values.motion = motionOf(scene_, *earlier_, camera, at, surfel.position);
+  }
+  const bool hasLobes = effects_.has(Effect::glossy);
+  keepFinish(scene_.materials[surfel.material], hasLobes ? surfel.specular : RgbD(),
+             hasLobes ? surfel.alpha : 0, values);
   values.uv = uvAt(scene_, candidate.triangle, hit.u, hit.v);
   const Scene::HitNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
   values.object = numbers.item;

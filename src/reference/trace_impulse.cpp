@@ -33,6 +33,7 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
       observer_(observer),
       options_(settings.options),
       effects_(settings.effects.without(optionalEffectsOff(options_))),
+      earlier_(settings.earlier),
       samples_(samplePattern(options_.spp)) {
   if (options_.shading.textureFilter == TextureFilter::trilinear) {
     maps_.emplace(scene, settings.threads);

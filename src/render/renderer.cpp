@@ -120,6 +120,9 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
+  if (earlier_) {
+    earlier_->frame = makeCameraFrame(earlier_->camera, film.image.width, film.image.height);
+  }
   CameraFrame frame = frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
                                      film.image.width, film.image.height, options_.spp);
   if (frame.reach != Vec3d()) frame.mediaVary = startsMayLieInside(frame, dielectrics_);
@@ -157,7 +160,8 @@ Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
   film.channels.resize(plan_.channels, film.image.pixels.size());
   if (!plan_.channels.empty()) {
     frame.constants.channels = {&film.channels, film.image.window,
-                                static_cast<std::uint32_t>(nearestToCenter(frame.samples))};
+                                static_cast<std::uint32_t>(nearestToCenter(frame.samples)),
+                                earlier()};
   }
   frame.film = &film;
   frame.hooks = request.hooks;

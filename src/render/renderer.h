@@ -19,6 +19,7 @@
 #include "render/plan.h"
 #include "render/scheduler.h"
 #include "stages/lobes.h"
+#include "surfaces/channel_values.h"
 
 namespace whit {
 
@@ -61,6 +62,10 @@ class Renderer {
 
   // Pictures of different seeds have independent noise. The reference always uses seed 0.
   void setSeed(std::uint32_t seed) { seed_ = seed; }
+
+  // The channel "motion" of the next frames counts from this view; without a view it is 0.
+  void setEarlier(std::optional<EarlierView> view) { earlier_ = std::move(view); }
+  const EarlierView* earlier() const { return earlier_ ? &*earlier_ : nullptr; }
 
   // Call after materials or lights of the scene were changed (editShading). Keeps the acceleration
   // structure.
@@ -108,6 +113,7 @@ class Renderer {
   Box dielectrics_;        // around the surfaces of all of them
   bool enclosed_ = false;  // the scene is closed around its cameras, and rays are to be retried
   std::optional<Vec3f> lookedFrom_;  // eye of the last frame
+  std::optional<EarlierView> earlier_;
   double buildMs_ = 0;
 };
 

@@ -17,6 +17,7 @@
 #include "render/renderer.h"
 #include "sampling/ray_limit.h"
 #include "simd/kernels.h"
+#include "surfaces/channel_values.h"
 #include "surfaces/choose_surface.h"
 #include "surfaces/initial_media.h"
 
@@ -118,17 +119,32 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   const Vec3f forward(c.frame->camera.forward);
   values.distance = c.hits.t[i];
   values.z = values.distance * dot(c.rays.dir.at(i), forward);
-  values.position = Vec3f(scene.inFile(Vec3d(s.pos.at(i))));
+  const Vec3d position(s.pos.at(i));
+  values.position = Vec3f(scene.inFile(position));
   values.normal = s.ns.at(i);
   values.albedo = s.diffuse.at(i);
   values.material = s.material[i];
+
+  RgbD specular;
+  double alpha = 0;
+  if (c.has(Feature::glossy)) {
+    specular = RgbD(s.specular.at(i));
+    alpha = s.alpha[i];
+  }
+  keepFinish(scene.materials[values.material], specular, alpha, values);
+
+  // These take longer than to read columns.
   const ChannelSet kept = c.frame->channels.layers->channels();
   const std::uint32_t triangle = c.hits.triangle[i];
+  const std::uint32_t instance = c.has(Feature::instances) ? c.hits.instance[i] : kNoInstance;
+  if (kept.has(Channel::motion) && c.frame->channels.earlier) {
+    const Candidate hit{triangle, instance, double{c.hits.u[i]}, double{c.hits.v[i]}};
+    values.motion = motionOf(scene, *c.frame->channels.earlier, c.frame->camera, hit, position);
+  }
   if (kept.has(Channel::uv)) {
     values.uv = uvAt(scene, triangle, double{c.hits.u[i]}, double{c.hits.v[i]});
   }
   if (kept.has(Channel::object) || kept.has(Channel::triangle)) {
-    const std::uint32_t instance = c.has(Feature::instances) ? c.hits.instance[i] : kNoInstance;
     const Scene::HitNumbers numbers = scene.numbersOf(triangle, instance);
     values.object = numbers.item;
     values.triangle = numbers.triangle;

@@ -244,6 +244,14 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   return frame;
 }
 
+std::array<double, 2> imagePlace(const CameraFrame& camera, const Vec3d& point) {
+  const Vec3d d = point - camera.eye;
+  const double depth = camera.orthographic ? 1 : dot(d, camera.forward);
+  const double x = dot(d, camera.right) / (dot(camera.right, camera.right) * depth);
+  const double y = dot(d, camera.up) / (dot(camera.up, camera.up) * depth);
+  return {camera.centerX + x - camera.skew * y, camera.centerY - y};
+}
+
 RayCone pixelCone(const CameraFrame& camera) {
   const double width = length(camera.up) * camera.footprint;
   return camera.orthographic ? RayCone{width, 0} : RayCone{0, width};

@@ -131,6 +131,9 @@ inline constexpr std::uint32_t kLensSalt = 0x3c1d5e97u;
 
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 
+// Returns where a linear camera sees a point before it: pixels from the top left of the picture.
+std::array<double, 2> imagePlace(const CameraFrame& camera, const Vec3d& point);
+
 // Footprint of a ray: its width at the start, and the growth of the width per unit of distance.
 struct RayCone {
   double width = 0, spread = 0;

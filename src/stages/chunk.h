@@ -19,6 +19,7 @@
 namespace whit {
 
 class Accel;
+struct EarlierView;
 class Scene;
 struct Film;
 
@@ -28,6 +29,7 @@ struct ChannelTarget {
   ChannelLayers* layers = nullptr;
   Crop window;  // pixels beside it are left out
   std::uint32_t sample = 0;
+  const EarlierView* earlier = nullptr;  // where motion begins; null: nothing moves
 };
 
 // Constants of a frame, which all chunks share; read-only while it is rendered.

@@ -120,6 +120,7 @@ TEST(Channels, WhatCannotBeIsSaid) {
   refuse(2, "expected an EXR to keep depth in", "a.png", "depth");
   refuse(2, "expected an EXR to keep depth in", "a.normal.exr", "depth,normal");
   refuse(2, "positions do not fit into a PNG", "a.position.png", "position");
+  refuse(2, "motions do not fit into a PNG", "a.motion.png", "motion");
   refuse(2, "dwaa is lossy for channels", "a.exr", "depth", "dwaa");
   refuse(4, "there is no folder", "none/a.exr", "depth");
 
@@ -211,7 +212,7 @@ TEST(Channels, OfFramesAreThoseOfEachAlone) {
   const auto film = [&](const std::string& name, const std::string& frames) {
     expectDone({"render", scene, "-o", folder / (name + "#.exr"), "-o",
                 folder / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
-                kAll, "--quiet"});
+                kAll + ",roughness,metallic,motion", "--quiet"});
   };
 
   film("film", "0..3");
@@ -219,6 +220,35 @@ TEST(Channels, OfFramesAreThoseOfEachAlone) {
   EXPECT_EQ(readFile(folder / "film2.exr"), readFile(folder / "alone2.exr"));
   EXPECT_EQ(readFile(folder / "film.depth-2.png"), readFile(folder / "alone.depth-2.png"));
   EXPECT_NE(readFile(folder / "film.depth-2.png"), readFile(folder / "film.depth-1.png"));
+
+  // An instant has the motion since the frame before it.
+  expectDone({"render", scene, "-o", folder / "instant.motion.exr", "--time", "0.5", "--fps", "4",
+              "--quiet"});
+  expectDone({"render", scene, "-o", folder / "frame.motion-#.exr", "--frames", "2..2", "--fps",
+              "4", "--quiet"});
+  const auto motionsIn = [&](const std::string& file) {
+    return readImage(folder / file, ImageLimits()).pixels;
+  };
+  EXPECT_EQ(motionsIn("instant.motion.exr"), motionsIn("frame.motion-2.exr"));
+  const auto moves = [](const Rgb& motion) { return motion != Rgb(0.0f); };
+  EXPECT_TRUE(std::ranges::any_of(motionsIn("instant.motion.exr"), moves));
+}
+
+// Eight pixels are a unit, and the ball moves by (0.5, -0.25) units a second.
+TEST(Channels, MotionIsThatOfOneFrame) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "ball.json") << R"({"whit": 1, "size": [64, 64], "cameras": {"c":
+    {"eye": [0, 0, 9], "at": [0, 0, 0], "orthographicHeight": 8}}, "ambient": {"color": 1}, "scene":
+    [{"shape": "sphere", "motion": {"keys": [{"time": 0}, {"time": 4, "translate": [2, -1, 0]}]}}]})";
+  expectDone({"render", folder / "ball.json", "-o", folder / "a.motion.exr", "--time", "2", "--fps",
+              "4", "--quiet"});
+
+  const Image image = readImage(folder / "a.motion.exr", ImageLimits());
+  const Rgb seen = image.at(32 + 8, 32 + 4), nothing = image.at(0, 0);
+  constexpr double kRounding = 1e-5;  // of positions in float, in pixels
+  EXPECT_NEAR(seen.x, 8 * 0.5 / 4, kRounding);
+  EXPECT_NEAR(seen.y, 8 * 0.25 / 4, kRounding);
+  EXPECT_EQ(nothing, Rgb(0.0f));
 }
 
 TEST(Channels, ResumingAsksForTheSameOnes) {

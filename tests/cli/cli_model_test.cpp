@@ -179,7 +179,7 @@ TEST(Models, TakeACameraFromAFile) {
   std::ofstream(pose) << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3})";
   const Outcome refused = runWhit({"info", model, "--camera", pose});
   EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("model.obj#/cameras/pose/lens"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("pose.json#/lens: "), std::string::npos) << refused.err;
   std::ofstream(pose) << "{\n\"eye\" [";
   const Outcome broken = runWhit({"info", model, "--camera", pose});
   EXPECT_EQ(broken.status, 3);

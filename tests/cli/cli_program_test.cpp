@@ -40,6 +40,21 @@ TEST(Program, EveryCommandHasHelp) {
   }
 }
 
+// --help is for every day, --help-all has the rest.
+TEST(Program, HelpOfRenderFitsOnTwoScreens) {
+  const std::string help = runWhit({"render", "--help"}).out;
+  const std::string all = runWhit({"render", "--help-all"}).out;
+  constexpr int kTwoScreens = 2 * 55;
+  EXPECT_LE(std::ranges::count(help, '\n'), kTwoScreens) << help;
+  for (const std::string option : {"--azimuth", "--zoom", "--ground", "--size", "--channels"}) {
+    EXPECT_NE(help.find("  " + option), std::string::npos) << option;
+  }
+  for (const std::string option : {"--viewpoint", "--exr", "--mode", "--texture-filter"}) {
+    EXPECT_EQ(help.find("  " + option), std::string::npos) << option;
+    EXPECT_NE(all.find("  " + option), std::string::npos) << option;
+  }
+}
+
 TEST(Program, NamesTheNearestCommandAndOption) {
   expectFailure({"rendre"}, 2, "'render'");
   expectFailure({"--versoin"}, 2, "'--version'");

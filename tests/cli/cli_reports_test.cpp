@@ -97,6 +97,7 @@ TEST(StageTable, HasTheseWords) {
   run.writingMs = {8};
   run.waitedMs = {0.5};
   run.floorMs = {160};
+  run.events = {3e9, 2e9, 1e6};
 
   std::string stages;
   double sum = 0;
@@ -119,7 +120,10 @@ TEST(StageTable, HasTheseWords) {
                 "  primary            3000000     15.00            75.0\n"
                 "  shadow             1000000      5.00           100.0\n"
                 "  all                4000000     20.00\n"
-                "  floor 160.00 ms (Embree alone, the same rays); frame over floor 1.25\n");
+                "  floor 160.00 ms (Embree alone, the same rays); frame over floor 1.25\n"
+                "  instructions a ray 750\n"
+                "  cycles a ray 500\n"
+                "  cache_misses a ray 0.25\n");
 }
 
 // The same in the JSON.
@@ -135,18 +139,32 @@ TEST(RunJson, HasTheseNumbers) {
   run.writingMs = {30, 50, 40};
   run.waitedMs = {5, 30, 40};
   run.tracedAndWrittenMs = 150;
+  EXPECT_FALSE(runJson(run).contains("per_ray"));
+  constexpr double kRays = 2 * (2048 + 300) + 400'000;
+  run.events = {8 * kRays, 4 * kRays, kRays / 2};
 
   const Json json = runJson(run);
-  const std::pair<const char*, double> numbers[] = {
-      {"/frame_ms/median", 20},    {"/frame_ms/min", 10},
-      {"/frame_ms/p95", 30},       {"/fps", 50},
-      {"/embree_ms", 4},           {"/outside_embree_ms", 16},
-      {"/rays/primary", 300'000},  {"/lanes_filled/primary", 0.75},
-      {"/mrays_per_s", 20},        {"/floor_ms", 16},
-      {"/frame_over_floor", 1.25}, {"/updateScene_ms", 7},
-      {"/writing_ms/spent", 40},   {"/writing_ms/waited", 30},
-      {"/written_per_s", 20},      {"/load_ms", 1234},
-      {"/build_ms", 56},           {"/stages_ms/generateRays", 0.2}};
+  const std::pair<const char*, double> numbers[] = {{"/frame_ms/median", 20},
+                                                    {"/frame_ms/min", 10},
+                                                    {"/frame_ms/p95", 30},
+                                                    {"/fps", 50},
+                                                    {"/embree_ms", 4},
+                                                    {"/outside_embree_ms", 16},
+                                                    {"/rays/primary", 300'000},
+                                                    {"/lanes_filled/primary", 0.75},
+                                                    {"/mrays_per_s", 20},
+                                                    {"/floor_ms", 16},
+                                                    {"/frame_over_floor", 1.25},
+                                                    {"/updateScene_ms", 7},
+                                                    {"/writing_ms/spent", 40},
+                                                    {"/writing_ms/waited", 30},
+                                                    {"/written_per_s", 20},
+                                                    {"/load_ms", 1234},
+                                                    {"/build_ms", 56},
+                                                    {"/stages_ms/generateRays", 0.2},
+                                                    {"/per_ray/instructions", 8},
+                                                    {"/per_ray/cycles", 4},
+                                                    {"/per_ray/cache_misses", 0.5}};
   for (const auto& [pointer, value] : numbers) {
     EXPECT_NEAR(json[Json::json_pointer(pointer)].get<double>(), value, 1e-9) << pointer;
   }

@@ -208,6 +208,13 @@ TEST_F(ChannelPng, VectorsAndColors) {
   v.uv = {1.25f, -0.25f};
   EXPECT_EQ(codes(Channel::uv, v), (Codes{16384, 49151, 0, 0, 0, 0}));
   EXPECT_EQ(statusOf([&] { codes(Channel::position, v); }), ExitStatus::usage);
+  EXPECT_EQ(statusOf([&] { codes(Channel::motion, v); }), ExitStatus::usage);
+
+  v.roughness = 0.25f;
+  v.metallic = 1;
+  EXPECT_EQ(codes(Channel::roughness, v), (Codes{16384, 0}));
+  EXPECT_EQ(codes(Channel::metallic, v), (Codes{65535, 0}));
+  EXPECT_EQ(components_, 1);
 }
 
 // Programs that show a picture convert the codes of a color space, which would falsify data.

@@ -1,5 +1,6 @@
 // Maps of one material with different texture coordinates: two sets of the mesh, or one set that
 // each map transforms differently.
+#include "decoded_texel.h"
 #include "gltf_pictures.h"
 
 namespace whit {
@@ -113,12 +114,73 @@ TEST_F(GltfCoordinates, OneSetOfASecondMaterialTakesNoMemory) {
   EXPECT_EQ(both.secondUvs.size(), both.triangles.size());
 }
 
+char letterOf(const Rgb& color) {
+  if (color == Rgb(1.0f)) return 'w';
+  if (color.x == 1) return 'r';
+  return color.y == 1 ? 'g' : 'b';
+}
+
+// A map whose coordinates are of a third kind is resampled for the first, row by row and texel by
+// texel, where it repeats a whole number of times.
+TEST_F(GltfCoordinates, AThirdKindIsResampled) {
+  save("four.tga", tga(2, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}}));
+  save("row.tga", tga(4, 1, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}}));
+  useImages({"color.tga", "light.tga", "four.tga", "row.tga"});
+  const auto emissionOf = [&](const std::string& base, const std::string& emissive,
+                              const std::string& image = "2") {
+    const SceneDescription d = loadText(
+        sceneText({{0,
+                    matte("\"baseColorTexture\":{\"index\":0" + base + "}",
+                          "\"normalTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":"
+                          "[1,1,1],\"emissiveTexture\":{\"index\":" +
+                              image + emissive + "}"),
+                    1}}));
+    const Texture& made = d.textures[static_cast<std::size_t>(d.materials[0].emissionMap)];
+    std::string colors = std::to_string(made.width) + ": ";
+    for (const std::uint32_t texel : made.texels) {
+      colors += letterOf(decodeColorTexel(texel));
+    }
+    return colors;
+  };
+
+  EXPECT_EQ(emissionOf("", transformed("\"scale\":[2,1]")), "4: rgrgbwbw");
+  EXPECT_EQ(emissionOf("", transformed("\"scale\":[1,2]")), "2: rgbwrgbw");
+  EXPECT_EQ(emissionOf("", transformed("\"offset\":[0.5,0]")), "2: grwb");
+  EXPECT_EQ(emissionOf("", transformed("\"scale\":[-1,1]")), "2: grwb");
+  EXPECT_EQ(emissionOf(transformed("\"scale\":[0.5,0.5],\"offset\":[0.25,0]"),
+                       transformed("\"scale\":[1,0.5]")),
+            "4: grgrwbwb")
+      << "half a repeat of the base color begins at a quarter, which is half a repeat of this";
+  EXPECT_EQ(emissionOf(transformed("\"offset\":[0.25,0]"), transformed("\"scale\":[1,1]"), "3"),
+            "4: wrgb");
+  EXPECT_EQ(kinds(), "");
+
+  emissionOf("", transformed("\"scale\":[1.5,1]"));
+  emissionOf("", transformed("\"rotation\":1"));
+  EXPECT_EQ(warned(kApart), 2u);
+}
+
+// Metal, in the blue channel, takes the diffuse color.
+TEST_F(GltfCoordinates, MetalnessOfAnotherTransformIsResampled) {
+  const SceneDescription d =
+      loadText(sceneText({{0,
+                           "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
+                           "\"metallicRoughnessTexture\":{\"index\":1" +
+                               transformed("\"scale\":[2,1]") + "}}}",
+                           1}}));
+  const Texture& made = d.textures[static_cast<std::size_t>(d.materials[0].diffuseMap)];
+  ASSERT_EQ(made.width, 4);
+  const Rgb expected[] = {black_, red_, black_, green_};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(decodeColorTexel(made.texels[i]), expected[i]) << i;
+  EXPECT_EQ(warned(kApart), 0u);
+}
+
 TEST_F(GltfCoordinates, AThirdKindAndThoseOfMetalnessAreCounted) {
   loadText(sceneText({{0,
                        matte("\"baseColorTexture\":{\"index\":0}",
                              "\"normalTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":"
                              "[1,1,1],\"emissiveTexture\":{\"index\":1" +
-                                 transformed("\"scale\":[2,2]") + "}"),
+                                 transformed("\"scale\":[0.5,2]") + "}"),
                        1}}));
   EXPECT_EQ(warned(kApart), 1u);
 

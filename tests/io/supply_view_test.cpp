@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/vec3.h"
+#include "io/scene/scene_sections.h"
 #include "make/model_view.h"
 #include "pi.h"
 #include "scene_files.h"
@@ -114,6 +115,18 @@ TEST_F(SuppliedView, TheStudioIsAsBrightAsItsLights) {
   EXPECT_EQ(skyName(dim.sky), "studio");
   EXPECT_NEAR(bright.sky.scale / dim.sky.scale, 1e5f, 10);
   EXPECT_NEAR(bright.ambient.up.x / dim.ambient.up.x, 1e5f, 10);
+}
+
+// The description of ambient light, set on a model, replaces all that a model is supplied with.
+TEST_F(SuppliedView, AmbientLightIsDescribedAsAWhole) {
+  EXPECT_GT(loadObj(kTriangleObj).ambient.occlusion, 0);
+  for (const float radius : {0.0f, 3.0f}) {
+    Ambient ambient;
+    ambient.up = ambient.down = Rgb(0.5f);
+    ambient.occlusion = radius;
+    options_.settings = {"/ambient=" + describe(ambient).dump()};
+    EXPECT_EQ(loadObj(kTriangleObj).ambient.occlusion, radius);
+  }
 }
 
 TEST_F(SuppliedView, AnotherSkyOrNone) {

@@ -159,6 +159,8 @@ class Pictures(unittest.TestCase):
             picture.write("a.depth.exr")
             with self.assertRaisesRegex(ValueError, "normal"):
                 picture.write("a.normal.exr")
+            with self.assertRaisesRegex(ValueError, "a JPEG holds no channel: write 'a.depth.png'"):
+                picture.write("a.depth.jpg")
             self.assertEqual(sorted(os.listdir()), ["a.depth.exr", "a.jpg"])
 
     def test_arrays_for_other_libraries(self):
@@ -247,6 +249,27 @@ class Pictures(unittest.TestCase):
                 picture[name]
         with self.assertRaises(whit.Error):
             scene.render(channels=["dept"])
+
+    def test_motion_counts_from_the_picture_before(self):
+        """Parallel rays, 10 pixels a unit, of a square that moves by (0.5, 0, 1) and then, with the
+        camera, by (-1, 0, 0) more: by what is left in the picture."""
+        camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}
+        scene = whit.Scene(square_scene(cameras={"above": camera}), movable=["/scene/0"])
+        place = np.eye(4)[:3]
+
+        def motion(**options):
+            picture = scene.render(size=(40, 40), channels=["motion", "object"], **options)
+            return picture["motion"][picture["object"] == 0]
+
+        np.testing.assert_allclose(motion(), np.zeros((400, 2)), atol=1e-5)
+        place[:, 3] = (0.5, 0, 1)
+        scene.set_transform("/scene/0", place)
+        np.testing.assert_allclose(motion(), np.tile([5, 10], (400, 1)), atol=1e-5)
+        place[:, 3] = (-0.5, 0, 1)
+        scene.set_transform("/scene/0", place)
+        moved = whit.Camera({**camera, "eye": [-0.75, 3, 0], "at": [-0.75, 0, 0]}, (40, 40))
+        np.testing.assert_allclose(motion(camera=moved) - [-2.5, 0], 0, atol=1e-5)
+        np.testing.assert_allclose(motion(camera=moved), 0, atol=1e-5)
 
     def test_they_show_themselves(self):
         picture = whit.Scene("whitted").render(size=SIZE)

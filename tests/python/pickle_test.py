@@ -71,7 +71,7 @@ class Pickles(unittest.TestCase):
     def test_pictures(self):
         scene = whit.Scene("whitted")
         names = ["depth", "position", "normal", "albedo", "uv", "object", "material", "triangle",
-                 "rays", "alpha", "error"]
+                 "rays", "alpha", "error", "roughness", "metallic", "motion"]
         with temporary_folder():
             for options in ({}, {"channels": names}, {"crop": (5, 6, 40, 21), "channels": ["uv"]},
                             {"background": "transparent", "exposure": 1.5}):

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bake/edit_scene.h"
+#include "core/error.h"
 #include "core/option_table.h"
 #include "inspect/reference_frame.h"
 #include "pi.h"
@@ -325,6 +326,97 @@ TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
   d.materials[1].diffuse = Rgb(1.0f);
   d.materials[1].mirror = d.materials[1].mirrorGrazing = {1, 0, 0};
   EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+}
+
+// glTF 2.0 makes this diffuse color and reflectance of a base color and a metallic share.
+TEST_P(Channels, FinishIsTheMaterialsOwn) {
+  const auto finishOf = [&](const Material& material) {
+    SceneDescription d = squareScene();
+    d.materials[1] = material;
+    const Film film = filmOf(finalized(d), options("roughness,metallic"));
+    const int x = film.image.width / 2, y = film.image.height / 2;
+    return std::array{floatsAt(film, Channel::roughness, x, y)[0],
+                      floatsAt(film, Channel::metallic, x, y)[0]};
+  };
+  // The metallic share is a difference over 0.04, which multiplies roundings by 25.
+  constexpr double kQuotient = 25 * kNear;
+
+  for (const float metal : {0.0f, 0.3f, 0.9f, 1.0f}) {
+    const Rgb base{0.9f, 0.6f, 0.3f};
+    Material material;
+    material.diffuse = base * (1 - metal);
+    material.specular = Rgb(0.04f * (1 - metal)) + base * metal;
+    material.roughness = 0.4f;
+    const auto [roughness, metallic] = finishOf(material);
+    EXPECT_NEAR(roughness, 0.4, kNear);
+    EXPECT_NEAR(metallic, metal, kQuotient);
+  }
+
+  Material mirror;
+  mirror.diffuse = Rgb(0.0f);
+  mirror.mirror = mirror.mirrorGrazing = Rgb(0.9f);
+  EXPECT_EQ(finishOf(mirror), (std::array{0.0f, 1.0f}));
+
+  Material glass;
+  glass.diffuse = Rgb(0.0f);
+  glass.specular = Rgb(0.1f);
+  glass.transmission = Rgb(1.0f);
+  glass.roughness = 0.25f;
+  const auto [roughness, metallic] = finishOf(glass);
+  EXPECT_NEAR(roughness, 0.25, kNear);
+  EXPECT_EQ(metallic, 0);
+
+  EXPECT_EQ(finishOf(Material()), (std::array{1.0f, 0.0f})) << "matte";
+}
+
+// The camera was (0.5, 0.25, 1) beside its present place; since then all vertices have moved by 0.75
+// along x.
+TEST_P(Channels, MotionIsThatOfCameraAndVertices) {
+  SceneDescription d = squareScene();
+  Mesh& mesh = d.objects[0].meshes[0];
+  auto bending = std::make_shared<Deformation>();
+  bending->positions = mesh.positions;
+  bending->targets.resize(1);
+  bending->targets[0].positions.assign(4, {1, 0, 0});
+  bending->movingWeights = Track{.components = 1, .times = {0, 1}, .values = {0, 1}};
+  mesh.deformation = bending;
+  Scene scene = finalized(d);
+
+  const RenderOptions o = options("motion,position,object");
+  Renderer renderer(scene, o);
+  const Camera camera = chooseCamera(scene, o);
+  Camera before = camera;
+  before.eye += {0.5f, 0.25f, 1};
+  before.at += {0.5f, 0.25f, 1};
+  moveScene(scene, 0.25);
+  renderer.setEarlier(rememberView(scene, before));
+  moveScene(scene, 1);
+  renderer.sceneMoved();
+  Film film = makeFilm(scene, o);
+  renderFrame(renderer, o.mode, camera, film);
+
+  const int width = film.image.width, height = film.image.height;
+  const double focal = height / 2.0 / std::tan(kPi / 6);
+  int seen = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::vector<float> p = floatsAt(film, Channel::position, x, y);
+      const bool isHit = numberAt(film, Channel::object, x, y) != kNoNumber;
+      const double right = p[0] / 5.0 - (p[0] - 0.75 - 0.5) / 6.0;
+      const double up = p[1] / 5.0 - (p[1] - 0.25) / 6.0;
+      const std::vector<double> expected{isHit ? focal * right : 0, isHit ? -focal * up : 0};
+      expectNear(floatsAt(film, Channel::motion, x, y), expected, focal * kNear);
+      seen += isHit;
+    }
+  }
+  EXPECT_GT(seen, 500);
+}
+
+TEST_P(Channels, MotionAsksForALinearCamera) {
+  const Scene scene = finalized(squareScene());
+  Camera panorama = scene.cameras[0];
+  panorama.projection = Projection::panorama;
+  EXPECT_THROW(rememberView(scene, panorama), Error);
 }
 
 TEST_P(Channels, OfASquareAreItsOwn) {

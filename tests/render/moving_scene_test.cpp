@@ -157,6 +157,42 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   }
 }
 
+// The ball moves by (0.5, -0.25) a second and grows by a quarter of its size at 0 s.
+TEST_F(MovingFile, MotionOfABallIsThatOfItsPoints) {
+  constexpr double kPixels = 8;
+  Scene scene =
+      at(0,
+         "\"scene\": [{\"shape\": \"sphere\", \"material\": \"lit\", \"motion\": "
+         "{\"keys\": [{\"time\": 0}, {\"time\": 4, \"translate\": [2, -1, 0], \"scale\": 2}]}}]");
+  RenderOptions options;
+  options.channels = parseChannels("motion,position,object");
+  Renderer renderer(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  moveScene(scene, 1);
+  renderer.setEarlier(rememberView(scene, camera));
+  moveScene(scene, 2);
+  renderer.sceneMoved();
+  Film film = makeFilm(scene, options);
+  renderer.render(camera, film);
+
+  const auto positions = film.channels.floats(Channel::position);
+  const auto motions = film.channels.floats(Channel::motion);
+  int seen = 0;
+  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+    const bool isHit = film.channels.numbers(Channel::object)[i] != kNoNumber;
+    seen += isHit;
+
+    // A point of the ball of radius 1.5 about (1, -0.5) was on one of radius 1.25 about half of it.
+    const double x = double{positions[3 * i]}, y = double{positions[3 * i + 1]};
+    const double right = x - 0.5 - (x - 1) * 1.25 / 1.5;
+    const double up = y + 0.25 - (y + 0.5) * 1.25 / 1.5;
+    constexpr double kRounding = 1e-5;  // of positions in float, in pixels
+    ASSERT_NEAR(motions[2 * i], isHit ? kPixels * right : 0, kRounding) << i;
+    ASSERT_NEAR(motions[2 * i + 1], isHit ? -kPixels * up : 0, kRounding) << i;
+  }
+  EXPECT_GT(seen, 300);
+}
+
 // Of two squares in one plane the later one is seen wherever both move.
 TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
   const auto square = [](const std::string& width, const std::string& material,

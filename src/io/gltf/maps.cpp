@@ -291,6 +291,40 @@ std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawI
   return dims ? std::optional(std::move(texture)) : std::nullopt;
 }
 
+// Which of a row of texels is shown by each texel of a row that repeats it. It keeps all of them
+// unless that takes more than an image of usual size.
+std::vector<std::size_t> repeated(int texels, double times, double begin) {
+  const double most = std::max(texels, 4096);
+  const double count = std::clamp(std::round(std::abs(times) * texels), 1.0, most);
+  std::vector<std::size_t> shown;
+  for (double at = 0.5; at < count; ++at) {
+    const double place = times * at / count + begin;
+    const double inImage = std::min(place - std::floor(place), 1 - 0.5 / texels);  // below 1
+    shown.push_back(static_cast<std::size_t>(inImage * texels));
+  }
+  return shown;
+}
+
+RawImage repeated(const RawImage& raw, const Repeats& repeats, const ImageLimits& limits) {
+  const std::vector<std::size_t> columns = repeated(raw.width, repeats.u, repeats.u0);
+  const std::vector<std::size_t> rows = repeated(raw.height, repeats.v, repeats.v0);
+  RawImage all = startImage("a repeated texture", std::ssize(columns), std::ssize(rows),
+                            raw.channels, raw.linear, limits);
+
+  const auto width = static_cast<std::size_t>(raw.width);
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  for (const std::size_t row : rows) {
+    for (const std::size_t column : columns) {
+      const std::size_t first = (row * width + column) * channels;
+      for (std::size_t i = first; i < first + channels; ++i) {
+        if (raw.linear) all.values.push_back(raw.values[i]);
+        if (!raw.linear) all.codes.push_back(raw.codes[i]);
+      }
+    }
+  }
+  return all;
+}
+
 Texture maskTexture(const GltfMaterial& material, const RawImage& raw) {
   return hasTranslucentAlpha(raw) ? makeAlphaTexture(material.name, raw)
                                   : makeTexture(material.name, raw, TexelFormat::data);
@@ -306,8 +340,14 @@ struct MapRequest {
   std::shared_ptr<GltfMeans> means;
 
   // Returns null if there is no image, or none that can be read.
+  std::shared_ptr<const RawImage> decoded(const GltfTexture& map, const Repeats& repeats) const {
+    const auto raw = map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
+    if (!raw || repeats == Repeats()) return raw;
+    return std::make_shared<const RawImage>(repeated(*raw, repeats, textures.limits()));
+  }
+  // The same, for the coordinates that the material looks the map up with.
   std::shared_ptr<const RawImage> decoded(const GltfTexture& map) const {
-    return map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
+    return decoded(map, repeatsOf(material, map).value_or(Repeats()));
   }
 };
 
@@ -365,9 +405,10 @@ void requestSingleMaps(const MapRequest& request, Material& slots) {
 
   // Returns a slot for the texture that `make` computes from an image, which may be none.
   const auto single = [&](const GltfTexture& map, const auto& make) {
-    return request.textures.add(1, [request, map, make] {
+    const Repeats repeats = repeatsOf(m, map).value_or(Repeats());
+    return request.textures.add(1, [request, map, repeats, make] {
       Images made(1);
-      const auto raw = request.decoded(map);
+      const auto raw = request.decoded(map, repeats);
       if (!raw) return made;
 
       const GltfMaterial& m = request.material;
@@ -408,7 +449,7 @@ void requestMean(const MapRequest& request, const GltfTexture& map, std::size_t 
                  float GltfMeans::*to, const char* warning) {
   if (!map.exists()) return;
   request.textures.add(0, [=] {
-    if (const auto raw = request.decoded(map)) {
+    if (const auto raw = request.decoded(map, Repeats())) {
       const ChannelMean found = meanOf(*raw, channel);
       (*request.means).*to = found.mean;
       if (found.varies) request.warnings.add(warning, request.material.where);
@@ -426,6 +467,8 @@ std::string keyOf(const GltfMaterial& m) {
         &m.roughnessMap, &m.maskMap, &m.occlusionMap}) {
     key << (map->image ? static_cast<std::int64_t>(*map->image) : -1) << ' '
         << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << map->nearest << ' ';
+    // Nothing is shared of what is resampled for one material.
+    if (repeatsOf(m, *map) != Repeats()) key << m.where << ' ';
   }
 
   key << std::hexfloat << m.normalScale << ' ' << m.occlusionStrength << ' '

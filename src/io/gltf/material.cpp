@@ -270,20 +270,35 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
   return found;
 }
 
-bool lacksCoordinates(const GltfMaterial& m) {
+std::optional<Repeats> repeatsOf(const GltfMaterial& m, const GltfTexture& texture) {
   const GltfMaterial::Coordinates known = m.coordinates();
-  const auto isApart = [&](bool matters, const GltfTexture& map) {
-    return matters && map.exists() && m.surfaceMap().exists() && !(map.uv == m.surfaceMap().uv);
+  const GltfUvMap &own = texture.uv, &from = known.first;
+  const bool maySecond =
+      &texture == &m.normalMap || &texture == &m.emissiveMap || &texture == &m.occlusionMap;
+  if (!texture.exists() || own == from || (maySecond && own == known.second)) return Repeats();
+
+  Repeats r{own.uu / from.uu, own.vv / from.vv};
+  r.u0 = own.u0 - r.u * from.u0;
+  r.v0 = own.v0 - r.v * from.v0;
+
+  constexpr double kMost = 1e4, kRounding = 1e-6;
+  const auto isWhole = [](double x) {
+    return std::abs(x) < kMost && std::abs(x - std::round(x)) < kRounding;
   };
-  const auto isThird = [&](const GltfTexture& map) {
-    return !(map.uv == known.first) && !(map.uv == known.second);
+  const bool isTurned = own.uv != 0 || own.vu != 0 || from.uv != 0 || from.vu != 0;
+  const bool fits = own.set == from.set && !isTurned && isWhole(r.u) && isWhole(r.v);
+  return fits ? std::optional(r) : std::nullopt;
+}
+
+bool lacksCoordinates(const GltfMaterial& m) {
+  const auto lacks = [&](bool matters, const GltfTexture& map) {
+    return matters && !repeatsOf(m, map);
   };
-  return (m.emitsByMap() && isThird(m.emissiveMap)) ||
-         (m.occlusionMap.exists() && isThird(m.occlusionMap)) ||
-         isApart(m.variesTransmission(), m.transmissionMap) ||
-         isApart(m.variesRoughness(), m.roughnessMap) ||
-         isApart(m.mixesMetal(), m.metallicRoughnessMap) || isApart(true, m.maskMap) ||
-         isApart(m.variesF0(), m.specularMap) || isApart(m.variesF0(), m.specularColorMap);
+  return lacks(m.emitsByMap(), m.emissiveMap) || lacks(true, m.occlusionMap) ||
+         lacks(m.variesTransmission(), m.transmissionMap) ||
+         lacks(m.variesRoughness(), m.roughnessMap) ||
+         lacks(m.mixesMetal(), m.metallicRoughnessMap) || lacks(true, m.maskMap) ||
+         lacks(m.variesF0(), m.specularMap) || lacks(m.variesF0(), m.specularColorMap);
 }
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {

@@ -133,8 +133,17 @@ struct GltfMeans {
   bool alphaByMap = false;  // its texels differ and are multiplied with the factor
 };
 
-// Returns true if a map that the material needs cannot be looked up with its own coordinates,
-// because others already take both sets.
+// How often an image repeats where the coordinates that look it up grow by 1, and where it begins.
+struct Repeats {
+  double u = 1, v = 1, u0 = 0, v0 = 0;
+  bool operator==(const Repeats&) const = default;
+};
+// Returns how to resample a texture of the material for the coordinates that it is looked up with,
+// because other textures already take both sets. None if its own are turned, of another set, or
+// repeat no whole number of times.
+std::optional<Repeats> repeatsOf(const GltfMaterial& material, const GltfTexture& texture);
+// Returns true if a map that the material needs can neither be looked up with its own coordinates
+// nor be resampled.
 bool lacksCoordinates(const GltfMaterial& material);
 
 // The Material, without its maps:

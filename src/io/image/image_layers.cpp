@@ -30,7 +30,7 @@ constexpr double kDepthCodesPerUnit = 1000;
 // True for channels that images show as three colors; others are gray.
 bool isColor(Channel channel) {
   return channel == Channel::normal || channel == Channel::albedo || channel == Channel::uv ||
-         channel == Channel::position;
+         needsFloats(channel);
 }
 
 // Returns the 16-bit code of a value before it is rounded; it may be out of range.
@@ -46,6 +46,8 @@ double codeOf(Channel channel, double value) {
       return (value - std::floor(value)) * kWhite16;
     case Channel::alpha:
     case Channel::error:
+    case Channel::roughness:
+    case Channel::metallic:
       return value * kWhite16;
     case Channel::rays:
       return value;
@@ -58,8 +60,9 @@ double codeOf(Channel channel, double value) {
 // Each pixel has one code, or three codes that are 0 for components which the channel lacks.
 std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers& channels,
                                    Channel channel) {
-  if (channel == Channel::position) {
-    throwUsage("'" + path + "': positions do not fit into a PNG: write an EXR");
+  if (needsFloats(channel)) {
+    throwUsage("'" + path + "': " + std::string(infoOf(channel).name) +
+               "s do not fit into a PNG: write an EXR");
   }
 
   const ChannelInfo& info = infoOf(channel);
@@ -189,6 +192,12 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
   const bool isOnlyPart = last == name;
   if (isOnlyPart && (extensionOf(path) == ".exr" || !kept.has(channel))) return std::nullopt;
   return channel;
+}
+
+void requireNoChannelName(const std::string& jpeg) {
+  const std::string asPng = std::filesystem::path(jpeg).replace_extension(".png").string();
+  if (!channelNamedBy(asPng, ChannelSet())) return;
+  throwUsage("'" + jpeg + "': a JPEG holds no channel: write '" + asPng + "'");
 }
 
 void writeChannelExr(const std::string& path, const Image& image, const ChannelLayers& channels,

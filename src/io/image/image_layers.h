@@ -33,6 +33,8 @@ ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
 // "a.normal-####.exr". A PNG whose name has no other part, as "depth.png", holds a channel that is
 // kept.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
+// Throws Error(usage) if the name of a JPEG asks for a channel, which only a PNG or an EXR holds.
+void requireNoChannelName(const std::string& jpeg);
 
 // Writes a channel as an EXR that programs without knowledge of channels read: normals, positions,
 // albedo and texture coordinates as R, G, B, of others the first component as Y. Numbers become

@@ -393,7 +393,7 @@ Json describe(const Ambient& ambient) {
   Json json = ambient.ofSky > 0
                   ? Json{{"fromSky", ambient.ofSky}}
                   : Json{{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
-  if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
+  json["occlusion"] = describe(ambient.occlusion);
   const bool usual = ambient.reflection == usualReflection(ambient.ofSky > 0 ? ambient.ofSky : 1);
   if (!usual) json["reflection"] = describe(ambient.reflection);
   return json;
