@@ -37,7 +37,10 @@ Scope scopeOf(const RenderOptions& base, EffectSet effects, const SweepSettings&
               const FrameSource& baseline, ReferenceCache& cache) {
   Scope scope{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0};
   scope.cutoff = exactCutoff(effects, settings.full);
-  scope.raysPerSample = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr).rays / base.spp;
+  const ReferencePicture& exact = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr);
+  scope.raysPerSample = exact.rays / base.spp;
+  scope.msPerSample = exact.renderMs / base.spp;
+  scope.mostMs = referenceMs(settings.timingSeconds.value_or(scope.limits.timingSeconds));
   scope.frameRays = static_cast<double>(baseline.stats.allRays());
   return scope;
 }
@@ -165,7 +168,6 @@ void finish(const Timing& baselineTiming, SceneSweep& sweep) {
 
 SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
                       Progress* progress) {
-  Stopwatch clock;
   const Camera camera = chooseCamera(scene, base);
   const EffectSet effects = scene.effects.without(base.disable);
   FrameSource baseline(scene, camera, base);
@@ -176,12 +178,10 @@ SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const Sweep
   SceneSweep sweep = startSweep(scene, baseline, scope);
   PointTimer timer(baseline, 1000 * settings.timingSeconds.value_or(scope.limits.timingSeconds));
 
-  // The time limit of a quick sweep does not include the picture with all transport.
   std::optional<TransportPicture> transport;
   if (settings.truth == Truth::transport) {
     transport = transportTruth(scene, camera, base, scope, progress);
     sweep.transport = static_cast<const TransportFacts&>(*transport);
-    clock = Stopwatch();
   }
 
   choosePoints(base, effects, settings, scope, sweep);
@@ -195,6 +195,7 @@ SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const Sweep
 
   std::map<std::string, std::string> unmeasured;  // label and reason
   const std::vector<std::size_t> order = chooseOrder(sweep.points, settings);
+  const Stopwatch clock;  // the pictures that points are measured against do not count
   for (std::size_t k = 0; k < order.size(); ++k) {
     Point& point = sweep.points[order[k]];
     const std::size_t remaining = order.size() - k;

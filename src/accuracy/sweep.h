@@ -12,7 +12,7 @@
 
 namespace whit::accuracy {
 
-// Most limits count rays, so that the reference does not depend on the speed of the machine.
+// Most limits count rays, so that the reference depends on the speed of slow machines only.
 struct Limits {
   int samples, leastSamples;
   double referenceRays;  // rays for the reference
@@ -20,10 +20,17 @@ struct Limits {
   double scalarRays;     // rays for a point that the scalar reference renders
   double longFrameRays;  // a frame of the baseline with more rays is long
   double timingSeconds;  // time for all points of a scene
-  double seconds;        // no point is begun later, apart from the time for timing
+  double seconds;        // no point is begun later, apart from reference and timing
 };
-inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 30};
+inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 23};
 inline constexpr Limits kFull{256, 8, 400e6, 4e9, 100e6, 1e300, 600, 1e300};
+
+// The share of the time for timing that the reference may take besides, so that slow machines come
+// to measure points. Budgets below that of a quick sweep leave the reference as it is.
+inline constexpr double kReferenceShare = 1.0 / 3;
+inline double referenceMs(double timingSeconds) {
+  return 1000 * kReferenceShare * std::max(timingSeconds, kQuick.timingSeconds);
+}
 
 struct Scope {
   Limits limits;
@@ -33,13 +40,17 @@ struct Scope {
   int baselineSpp = 1;
   double transportPaths = 0;  // paths of a pixel in the picture with all transport, or 0 without it
   float cutoff = 0;           // cutoff of exact pictures
+  // The time that the reference takes for a sample of the exact picture, and may take for all.
+  double msPerSample = 0, mostMs = kInfinity;
 
   // Samples a pixel of the reference.
   int samples() const {
+    const auto takesTooLong = [&](int samples) {
+      return samples * raysPerSample > limits.referenceRays || samples * msPerSample > mostMs;
+    };
+
     int samples = limits.samples;
-    while (samples > limits.leastSamples && samples * raysPerSample > limits.referenceRays) {
-      samples /= 2;
-    }
+    while (samples > limits.leastSamples && takesTooLong(samples)) samples /= 2;
     return samples;
   }
 

@@ -57,7 +57,8 @@ OptionList listOptions(AccuracyJob& job) {
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value(
       {"time-budget", "SECONDS", 0, 1e6},
-      "time for measuring times of a scene until their spread is known (default: 20, --full 600)",
+      "time for measuring times of a scene until their spread is known; the reference takes at "
+      "most a third of it besides (default: 20, --full 600)",
       job.settings.timingSeconds);
   list.value({"seed", "N", 0, 1e9}, "seed of the random order of the measurements", job.seed);
 

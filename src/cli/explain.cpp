@@ -29,7 +29,7 @@ namespace {
 constexpr const char* kExplainUsage = "whit explain SCENE --pixel x,y [options]";
 constexpr const char* kExplainSummary =
     "Prints the tree of rays of one pixel: what each ray hits, what it adds and where it ends, in "
-    "packets and in the scalar reference.";
+    "packets and in the scalar reference. One sample is explained unless --spp asks for more.";
 constexpr ImageSize kDiagramSize{960, 600};
 
 struct ExplainJob {
@@ -80,6 +80,15 @@ struct Explained {
   const RenderOptions& options;
   PixelPlace place;
   ExplainedRays rays;
+  int samplesOfPicture = 1;
+
+  // Says that there are more samples than those explained; empty if there are none.
+  std::string note() const {
+    if (samplesOfPicture == options.spp) return "";
+    return formatted(
+        "One sample explains the pixel here; the picture has %d: --spp %d explains all.",
+        samplesOfPicture, samplesOfPicture);
+  }
 };
 
 // Lists what adds more than so much, and counts the rest.
@@ -139,10 +148,14 @@ std::string headOf(const Explained& e) {
   bool parts = false;
   for (const auto i : indices(rays)) parts |= e.rays.partsAt(i);
 
+  std::string remarks;
+  if (parts) remarks += "  their paths part\n";
+  if (!e.note().empty()) remarks += "  " + e.note() + "\n";
+
   return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
          counted(rays, "ray") + " and " + counted(e.rays.packets.shadowRays(), "shadow ray") +
          "\n" + line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
-         (parts ? "  their paths part\n" : "") + "\n";
+         remarks + "\n";
 }
 
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
@@ -265,14 +278,22 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   return svg + legendSvg(lines, height) + "</g>\n</svg>\n";
 }
 
-// The picture by `camera` as a PNG.
-std::string pictureBy(const Camera& camera, RenderOptions options, ImageSize size,
-                      Renderer& renderer, const ExplainJob& job) {
+// The picture by `camera` as a PNG, with as many samples as the scene asks for, but not so many
+// that a reader would wait.
+std::string pictureBy(const Camera& camera, const Explained& e, ImageSize size, Renderer& renderer,
+                      const ExplainJob& job) {
+  constexpr int kMostSamples = 16;
+  RenderOptions options = e.options;
   options.size = size;
   options.crop.reset();
+  options.spp = std::clamp(e.samplesOfPicture, options.spp, std::max(options.spp, kMostSamples));
+
   Film film = makeFilm(renderer.scene(), options, job.common.load.maxMemoryBytes);
   film.wantDisplay = true;
+  const RenderOptions explained = renderer.options();
+  renderer.setOptions(options);
   renderer.render(camera, film);
+  renderer.setOptions(explained);
   return encodePng(film.display);
 }
 
@@ -280,7 +301,7 @@ std::string drawDiagram(const ExplainJob& job, const Explained& e, Renderer& ren
                         const Camera& camera) {
   const Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
   return rayDiagram(e.rays.packets, camera, seen, kDiagramSize.width, kDiagramSize.height,
-                    pictureBy(seen, e.options, kDiagramSize, renderer, job));
+                    pictureBy(seen, e, kDiagramSize, renderer, job));
 }
 
 // The build turns lesson.html into a string literal.
@@ -301,12 +322,13 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
   for (const auto i : indices(e.rays.packets.nodes)) {
     words.push_back(describeRay(e.scene, e.rays, i));
   }
-  const std::string picture = pictureBy(camera, e.options, size, renderer, job);
+  const std::string picture = pictureBy(camera, e, size, renderer, job);
   return pageWith(kLesson,
                   {{"scene", e.scene.name},
                    {"size", {size.width, size.height}},
                    {"pixel", {e.place.x, e.place.y}},
                    {"reference", jsonOf(RgbD(e.rays.reference.pixel))},
+                   {"note", e.note()},
                    {"tree", pageTree(words, e.rays, e.options)},
                    {"picture", base64(picture)},
                    {"diagram", diagram},
@@ -326,6 +348,12 @@ int explainCommand(const Words& words) {
   auto progress = makeProgressBar(job.common);
   Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
+  const int samplesOfPicture = engine.wantedOptions().spp;
+
+  // Nobody reads the rays of hundreds of samples: one explains the pixel, unless more are asked
+  // for.
+  if (job.common.given.insert("spp").second) job.common.render.spp = 1;
+  engine.setOptions(job.common.render, job.common.given);
   const Film film =
       makeFilm(engine.scene(), engine.requestedOptions(), job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
@@ -334,7 +362,7 @@ int explainCommand(const Words& words) {
   progress.reset();
 
   const Explained e{engine.scene(), engine.options(), place,
-                    explainRays(renderer, camera, film, place.x, place.y)};
+                    explainRays(renderer, camera, film, place.x, place.y), samplesOfPicture};
   if (!job.svg.empty() || !job.html.empty()) {
     const std::string diagram = drawDiagram(job, e, renderer, camera);
     if (!job.svg.empty()) writeTextFile(job.svg, diagram);

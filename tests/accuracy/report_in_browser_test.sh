@@ -70,6 +70,13 @@ if (data.report === 'accuracy') {
     if (found !== value) say(`below ${group}, ${title} stands ${found}, not ${value}`);
   });
 }
+// The words of columns are explained on the page.
+const explained = [...document.querySelectorAll('dt')].map(term => term.textContent);
+if (data.report === 'effects') document.querySelectorAll('thead th').forEach(({textContent: word}) => {
+  if (!explained.includes(word)) say(`'${word}' is not explained`);
+});
+for (const word of data.report === 'accuracy' ? ['FLIP', 'RMSE', 'code', 'energy', 'ulp', '\u00d7 base', 'not finite'] : [])
+  if (!explained.includes(word)) say(`'${word}' is not explained`);
 if (/undefined|NaN|\[object/.test(document.querySelector('main').textContent)) say('a value is missing');
 const links = [...document.querySelectorAll('svg a')];
 if (data.report === 'accuracy' && links.length < 20) say(`${links.length} links`);

@@ -25,6 +25,19 @@ TEST(Scope, TheReferenceHasAsManySamplesAsItsRaysAllow) {
   EXPECT_EQ((Scope{kFull, 1e6, 1e6, false, 1, 0}).samples(), 256);
 }
 
+// On a machine where a sample takes a second, 64 of them would leave no time for any point.
+TEST(Scope, TheReferenceTakesAThirdOfTheBudgetAtMost) {
+  Scope slow = quick(1e5, 1e5);
+  slow.msPerSample = 1000;
+  slow.mostMs = referenceMs(20);
+  EXPECT_EQ(slow.samples(), 4);  // 8 samples would take 8 of 6.7 seconds
+  slow.mostMs = referenceMs(60);
+  EXPECT_EQ(slow.samples(), 16);
+  EXPECT_EQ(referenceMs(0), referenceMs(20)) << "without timing, errors are measured as well";
+  slow.msPerSample = 1e6;
+  EXPECT_EQ(slow.samples(), 2) << "never fewer";
+}
+
 // The 8 passes may trace 400 million rays in all.
 TEST(Scope, APassHasAsManySamplesAsItsRaysAllow) {
   EXPECT_EQ(quick(1e5, 1e5).transportSamples(7e5), 64);  // 358 million
@@ -67,7 +80,7 @@ TEST(Scope, AQuickSweepIsOverUnlessItsKnobsWereChosen) {
   Scope scope = quick(1e6, 1e6);
   EXPECT_FALSE(scope.isOver(kQuick.seconds));
   EXPECT_TRUE(scope.isOver(kQuick.seconds + 1));
-  EXPECT_LT(kQuick.seconds + kQuick.timingSeconds, 60)
+  EXPECT_LT(kQuick.seconds + kQuick.timingSeconds + referenceMs(kQuick.timingSeconds) / 1000, 60)
       << "the last point and the report come after that";
   scope.chosenKnobs = true;
   EXPECT_FALSE(scope.isOver(1e6));

@@ -126,6 +126,26 @@ TEST(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
   EXPECT_LT(most.size(), all.size());
 }
 
+// The room asks for 196 samples, whose rays nobody would read.
+TEST(Explain, ExplainsOneSampleOfMany) {
+  const TemporaryFolder folder;
+  const auto primaries = [&](const std::vector<std::string>& more, std::string& said) {
+    std::vector<std::string> words{"explain", "cornell", "--size", "24x24",
+                                   "--pixel", "3,12",    "--json", folder / "rays.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = runWhit(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    said = outcome.out;
+    return nlohmann::json::parse(readFile(folder / "rays.json"))["packets"]["samples"].size();
+  };
+
+  std::string said;
+  EXPECT_EQ(primaries({}, said), 1u);
+  EXPECT_NE(said.find("the picture has 196: --spp 196 explains all"), std::string::npos) << said;
+  EXPECT_EQ(primaries({"--spp", "4"}, said), 4u);
+  EXPECT_EQ(said.find("explains all"), std::string::npos) << said;
+}
+
 TEST(Explain, RefusesWrongUsage) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);

@@ -31,6 +31,24 @@ for (let i = 0; i <= Number(find('step').max); ++i) {
   if (!find('stage').textContent.startsWith(expected)) say(`${find('stage').textContent}, not ${expected}`);
   if (!document.querySelector('#maps .new canvas').width) say(`${expected} shows no column`);
 }
+// Every column is explained where it is drawn, in letters that can be read, and a constant one says so.
+document.querySelectorAll('#maps figure').forEach(figure => {
+  const said = figure.querySelector('p').textContent;
+  if (said.length < 8) say(`'${figure.querySelector('b').textContent}' is not explained`);
+  if (getComputedStyle(figure).opacity !== '1') say(`'${said}' is pale`);
+  if (figure.classList.contains('flat') !== /same at all pixels of|no pixel/.test(said)) say(`'${said}' has a picture or none`);
+});
+if (!document.querySelector('#maps .flat')) say('no column is constant');
+// A click on a ray scrolls the list and leaves the picture where it is.
+const last = [...document.querySelectorAll('line[data-node]')].at(-1), list = find('tree');
+scrollTo(0, last.getBoundingClientRect().top + scrollY - 100);
+const before = scrollY;
+last.dispatchEvent(new MouseEvent('click'));
+if (scrollY !== before) say(`a click scrolls the page by ${scrollY - before}`);
+const row = document.querySelector('#tree .picked').getBoundingClientRect(), box = list.getBoundingClientRect();
+if (row.top < box.top || row.bottom > box.bottom) say('the ray that was clicked is not in view');
+if (![...document.styleSheets[0].cssRules].some(rule => rule.media?.mediaText === 'print' && /print-color-adjust: exact/.test(rule.cssText)))
+  say('print drops colors');
 const film = document.querySelector('#maps .new div').textContent;
 if (film !== tree.radiance.map(digits).join(', ')) say(`the film has ${film}`);
 if (/undefined|NaN|\[object/.test(document.querySelector('main').textContent)) say('a value is missing');

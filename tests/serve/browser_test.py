@@ -107,11 +107,103 @@ def test_controls(browser, server):
             "an effect can be left out")
     changes(browser, lambda: choose("view", "normals"), "another view is shown")
     changes(browser, lambda: browser.key("BracketRight", "]") or choose("view", "none"), "] exposes")
+    browser.key("KeyV", "v")
+    browser.wait("document.getElementById('status').textContent.startsWith('depth: ')")
+    check(True, "V says which view is shown")
+    choose("view", "none")
+    browser.wait("whit.settled.view === 'none'")
+
+    pressed = "[...document.querySelectorAll('#presets [aria-pressed=true]')].map(b => b.textContent).join()"
+    check(browser.run(f"return {pressed}") == "", "no preset is on after a knob was turned")
+    browser.run("[...document.querySelectorAll('#presets button')].find(b => b.textContent === 'standard').click()")
+    browser.wait(f"{pressed} === 'standard'")
+    check(True, "the preset that was chosen is on")
+
     stages = browser.run("return whit.live.stages.map(([name, ms]) => ms).reduce((a, b) => a + b)")
     check(stages > 0, "the stages take time")
-    browser.run("say('set depth 1000')")
+    bars = browser.run("return [...document.querySelectorAll('.stage')].map(bar => bar.clientWidth)")
+    check(len(bars) == 8 and min(bars) > 250, f"the stages' bars have the width of the panel: {bars}")
+
+    # The box has the focus, as that of somebody who has just typed.
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; });"
+                "controls.get('depth').focus()")
+    choose("depth", 1000)
     browser.wait("document.getElementById('error').textContent.includes('depth')")
     check(True, "an option beyond its range is an error that names it")
+    browser.wait("controls.get('depth').value === whit.settled.options.depth")
+    check(browser.run("return controls.get('depth').value") != "1000", "and springs back")
+
+
+def test_keys_after_controls(browser, server):
+    """Walking keys act after a list, a box and a number were used."""
+    open_page(browser, server)
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
+    for used in ("controls.get('fresnel')", "document.querySelector('#effects input:enabled')",
+                 "controls.get('depth')", "document.getElementById('cameras')"):
+        browser.run(f"{used}.focus()")
+        value = browser.run(f"return {used}.value")
+        changes(browser, lambda: browser.key("KeyW", "w", pause=0.3), f"W walks where {used} has the focus")
+        check(browser.run(f"return {used}.value") == value, "and does not choose anything")
+    browser.run("controls.get('depth').focus()")
+    browser.key("Enter", "Enter")
+    check(browser.run("return document.activeElement === document.body"), "Enter gives all keys to the picture")
+
+
+def test_two_shapes(browser, server):
+    """A page whose shape differs from that of the picture shows it undistorted, and clicks hit its pixels."""
+    open_page(browser, server)
+    browser.run("say('forget')")
+    browser.wait("!whit.settled.tree")
+    browser.run("await fetch('input', {method: 'POST', body: 'size 200 400 1'})")
+    browser.wait("whit.live.window + '' === '200,400' && whit.exact")
+    box = "const b = picture.getBoundingClientRect(), s = stage.getBoundingClientRect();"
+    shape = browser.run(box + "return b.width / b.height")
+    # Sizes on the screen are in whole pixels or fractions of them.
+    check(abs(shape - 0.5) < 0.005, f"an upright picture stays upright: {shape}")
+    check(browser.run(box + "return Math.abs(b.left + b.width / 2 - s.left - s.width / 2) < 1"), "in the middle")
+    left, top, width, height = browser.run(box + "return [b.left, b.top, b.width, b.height]")
+    browser.click(left + 0.75 * width, top + 0.25 * height)
+    browser.wait("whit.settled.tree")
+    at = browser.run("return whit.settled.tree.pixel")
+    check(abs(at[0] - 150) <= 2 and abs(at[1] - 100) <= 2, f"a click is at its pixel: {at}")
+    browser.drag(middle(browser), middle(browser, 0.55))
+    browser.wait("shape().fills && whit.exact")
+    check(True, "who steers gets the shape of the page")
+
+
+def test_telephone(browser, server):
+    """By touch, whatever is pressed is as large as a finger."""
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+    open_page(browser, server, 360, 740)
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
+    small = browser.run(
+        "return [...document.querySelectorAll('button, select, a.button, summary, input')].filter(e => e.offsetParent)"
+        ".map(e => [e.closest('label') || e, e]).map(([e, own]) => [e.getBoundingClientRect().height, own.id || own.name ||"
+        " own.textContent]).filter(([height]) => height < 44)")
+    check(matches(browser, "(pointer: coarse)") and not small, f"all targets have 44 pixels: {small}")
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+    role = browser.run("return [picture.getAttribute('role'), picture.getAttribute('aria-label')].join()")
+    check(role == "img,picture of chess", f"the picture has a role and a name: {role}")
+
+
+def matches(browser, query):
+    return browser.run(f"return matchMedia('{query}').matches")
+
+
+def test_lost_server(browser, _):
+    """A server that ends, and another one in its place, are told apart."""
+    first = Server(whit, "whitted", "--quiet")
+    port = first.url.split(":")[2].split("/")[0]
+    open_page(browser, first, 360, 300)
+    first.stop()
+    browser.wait("document.getElementById('error').textContent.includes('start it again')")
+    check(True, "a server that has ended is told")
+    second = Server(whit, "whitted", "--quiet", "--port", port)
+    try:
+        browser.wait("document.getElementById('error').textContent.includes('has printed last')")
+        check(True, "a server that started again has another address")
+    finally:
+        second.stop()
 
 
 def test_download(browser, server):
@@ -154,11 +246,13 @@ browser = Browser()
 server = Server(whit, chess, "--quiet")
 spheres = Server(whit, "whitted", "--quiet")
 try:
-    for test in (test_layout, test_motion, test_controls, test_download):
+    for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
+                 test_download):
         test(browser, server)
     test_rays(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
+    test_lost_server(browser, None)
 finally:
     browser.stop()
     server.stop()

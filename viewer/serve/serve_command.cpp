@@ -32,9 +32,10 @@ cli::OptionList listOptions(ServeJob& job) {
 
   list.value({"port", "N", 0, 65535}, "the port; 0 is 8765, or any free one if that is taken",
              job.port);
-  list.value({"bind", "ADDRESS"},
-             "the address to listen on; others than 127.0.0.1 can be reached from elsewhere",
-             job.bind);
+  list.value(
+      {"bind", "ADDRESS"},
+      "the address to listen on; others than 127.0.0.1 and ::1 can be reached from elsewhere",
+      job.bind);
 
   view::listViewOptions(list, job.view);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
@@ -49,7 +50,10 @@ int serve(const ServeJob& job) {
 
   ServedSession session(job.view, scene);
   progress.reset();
-  Server server(session, {job.bind, job.port});
+  // An IPv6 address may be in brackets, as in an URL.
+  std::string bind = job.bind;
+  if (bind.starts_with('[') && bind.ends_with(']')) bind = bind.substr(1, bind.size() - 2);
+  Server server(session, {bind, job.port});
 
   // Standard output gets the address only, so that scripts can read it.
   std::printf("%s\n", server.url().c_str());
@@ -58,10 +62,12 @@ int serve(const ServeJob& job) {
   char machine[256] = "MACHINE";
   ::gethostname(machine, sizeof machine - 1);
   if (!job.view.common.quiet) {
+    // Shells would expand the brackets of an IPv6 address without the quotes.
     std::fprintf(stderr,
                  "Open this address in a browser. From another machine, first: "
-                 "ssh -L %d:%s:%d %s\n",
-                 server.port(), job.bind.c_str(), server.port(), machine);
+                 "ssh -L '%d:%s' %s\nand then open http://localhost:%d/%s/\n",
+                 server.port(), server.place().c_str(), machine, server.port(),
+                 server.token().c_str());
   }
   server.run();
   return 0;

@@ -26,6 +26,21 @@ constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
 constexpr std::chrono::milliseconds kWait{200};
 constexpr std::chrono::seconds kDownloadTime{30};
 
+constexpr const char* kPresets[] = {"good", "standard", "reference"};
+
+void applyPreset(const std::string& preset, RenderOptions& options) {
+  setOption(options, "quality", preset);
+  applyQuality(options, {"mode"});  // the reference is too slow here
+}
+
+// Returns whether the options have all values of the preset.
+bool hasPreset(const std::string& preset, RenderOptions options) {
+  RenderOptions applied = options;
+  applyPreset(preset, applied);
+  options.quality = applied.quality;
+  return options == applied;
+}
+
 // Errors of files may hold bytes that are no UTF-8.
 std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -267,13 +282,7 @@ void ServedSession::serve(const Message& message) {
       {"measure", [&] { settings_.measureKnobs = !settings_.measureKnobs; }},
       {"view",
        [&] { change([&](auto&) { parseValue(view::kViewOption, text, settings_.view); }); }},
-      {"preset",
-       [&] {
-         change([&](RenderOptions& next) {
-           setOption(next, "quality", text);
-           applyQuality(next, {"mode"});  // the reference is too slow here
-         });
-       }},
+      {"preset", [&] { change([&](RenderOptions& next) { applyPreset(text, next); }); }},
       {"effect",
        [&] {
          change([&](RenderOptions& next) {
@@ -305,6 +314,22 @@ void ServedSession::resize(double width, double height, double pixelsForCss) {
   };
   size_ = {side(width), side(height)};
   pixelsForCss_ = pixelsForCss;
+  fitUpright();
+}
+
+// Shows all of a model in a page that is narrower than the scene's own picture, as telephones are,
+// and undoes that in a wide page. A view that somebody has chosen stays.
+void ServedSession::fitUpright() {
+  if (!followed_ && !(upright_ && sameView(*upright_, control_.camera()))) return;
+  const bool narrow = size_.width * scene().height < size_.height * scene().width;
+
+  if (narrow && control_.orbits()) {
+    if (followed_) uprightFrom_ = *followed_;
+    fitView(size_);
+    upright_ = control_.camera();
+  } else if (!followed_) {
+    jumpToNumber(uprightFrom_);
+  }
 }
 
 void ServedSession::setTime(double seconds) {
@@ -355,7 +380,7 @@ void ServedSession::publish() {
 Json ServedSession::tablesJson() const {
   Json json{{"scene", scene().name},
             {"options", Json::array()},
-            {"presets", {"good", "standard", "reference"}},
+            {"presets", kPresets},
             {"views", Json::array()}};
 
   for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);
@@ -427,6 +452,10 @@ Json ServedSession::settledJson() const {
   forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
     if (spec.tab != Tab::none) json["options"][std::string(spec.name)] = formatValue(spec, field);
   });
+
+  for (const char* preset : kPresets) {
+    if (hasPreset(preset, settings_.options)) json["presets"].push_back(preset);
+  }
 
   // Each effect has a reason for being on or off. Costs are listed if they exceed the noise.
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -67,6 +68,7 @@ class ServedSession : public view::Session {
   void step(double seconds);
   void serve(const Message& message);
   void resize(double width, double height, double pixelsForCss);
+  void fitUpright();
   void setTime(double seconds);
   void chooseAnimation(const std::string& name);
   void publish();
@@ -78,6 +80,8 @@ class ServedSession : public view::Session {
   const std::string name_, tables_;
   ImageSize size_;
   double pixelsForCss_ = 1;
+  std::optional<Camera> upright_;  // the view that fits a narrow page
+  std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before
   view::Drags drags_;
   view::CameraMotion held_;
   double heldSeconds_ = 0;  // time since the page said what is held

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cctype>
 #include <chrono>
+#include <deque>
 #include <list>
 #include <map>
 #include <utility>
@@ -30,6 +31,77 @@ constexpr const char* kPage =
 constexpr double kWriteSeconds = 5, kTrustedIdleSeconds = 60;
 constexpr int kMostRequests = 100000;  // of a connection
 constexpr double kAliveMs = 2000;      // between messages to a page that has nothing to draw
+
+// Windows of VS Code show the page in a frame. No page of a web site has these schemes.
+constexpr const char* kEditorFrames = "vscode-webview: vscode-file:";
+
+// Threads for connections. The library's own pool would start all of them at once.
+class ThreadsOnDemand : public httplib::TaskQueue {
+ public:
+  // Newer versions of the library want to know whether the task was taken.
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue(nullptr));
+
+  Taken enqueue(std::function<void()> task) override {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+    if (idle_ < tasks_.size() && threads_.size() < kMostConnections) {
+      threads_.emplace_back([this] { work(); });
+    }
+    fresh_.notify_one();
+    return static_cast<Taken>(true);
+  }
+
+  void shutdown() override {
+    {
+      const std::lock_guard lock(mutex_);
+      ends_ = true;
+    }
+    fresh_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      ++idle_;
+      fresh_.wait(lock, [&] { return ends_ || !tasks_.empty(); });
+      --idle_;
+      if (tasks_.empty()) return;
+
+      const std::function<void()> task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      task();
+      lock.lock();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable fresh_;
+  std::deque<std::function<void()>> tasks_;
+  std::vector<std::thread> threads_;
+  std::size_t idle_ = 0;  // threads that wait for a task
+  bool ends_ = false;
+};
+
+// What a user reads whose request was refused with this status.
+const char* adviceOn(int status) {
+  switch (status) {
+    case 403:
+      return "this address lacks the token of the server, which is another one each time it "
+             "starts: open the address that whit serve has printed last";
+    case 421:
+      return "whit serve answers only at the address that it was bound to, at localhost and at IP "
+             "addresses: put one of them in place of this host, or forward the port over ssh, as "
+             "whit serve has printed";
+    case 404:
+      return "there is no such page: open the address that whit serve has printed, with the slash "
+             "at its end";
+    default:
+      return "refused";
+  }
+}
 
 }  // namespace
 
@@ -233,7 +305,7 @@ class Server::Http : public httplib::Server {
     using httplib::Request, httplib::Response;
 
     // These limits bound what clients can take up.
-    new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
+    new_task_queue = [] { return new ThreadsOnDemand(); };
     set_payload_max_length(kMessageBytes);
     set_tcp_nodelay(true);
     set_keep_alive_max_count(kMostRequests);
@@ -252,7 +324,7 @@ class Server::Http : public httplib::Server {
         current->trusted = true;
         return HandlerResponse::Unhandled;
       }
-      response.set_content("refused\n", "text/plain");
+      response.set_content(std::string(adviceOn(response.status)) + "\n", "text/plain");
       return HandlerResponse::Handled;
     });
 
@@ -284,7 +356,8 @@ class Server::Http : public httplib::Server {
           withNonce("default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
                     "form-action 'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; "
                     "frame-ancestors ") +
-              (server.options_.framed ? "http://localhost:* http://127.0.0.1:*" : "'none'")},
+              kEditorFrames +
+              (server.options_.framed ? " http://localhost:* http://127.0.0.1:*" : "")},
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cache-Control", "no-store"}});
@@ -488,11 +561,17 @@ Server::Server(ServedSession& session, const ServerOptions& options)
 
 Server::~Server() { stop(); }
 
-std::string Server::url() const {
-  const bool v6 = options_.bind.find(':') != std::string::npos;
-  return "http://" + (v6 ? "[" + options_.bind + "]" : options_.bind) + ":" +
-         std::to_string(port_) + "/" + token_ + "/";
+std::string Server::place() const {
+  // A server that listens everywhere is reached at this machine's own address.
+  std::string host = options_.bind;
+  if (host == "0.0.0.0") host = "127.0.0.1";
+  if (host == "::") host = "::1";
+
+  const bool v6 = host.find(':') != std::string::npos;
+  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port_);
 }
+
+std::string Server::url() const { return "http://" + place() + "/" + token_ + "/"; }
 
 void Server::run() { http_->listen_after_bind(); }
 

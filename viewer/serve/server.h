@@ -16,13 +16,13 @@ struct ServerOptions {
   std::string bind = "127.0.0.1";
   int port = 0;               // 0: kUsualPort, or any free one if that is taken
   double requestSeconds = 5;  // in which a request is to arrive
-  bool framed = false;        // notebooks of this machine show the page in a frame
+  bool framed = false;  // notebooks of this machine show the page in a frame; VS Code always may
 };
 inline constexpr int kUsualPort = 8765;
 
 inline constexpr int kMostPages = 16;
 inline constexpr int kMostStrangers = 32;           // connections that have not shown the token
-inline constexpr int kMostConnections = 128;        // each has a thread; others wait
+inline constexpr int kMostConnections = 128;        // at a time, with a thread each; others wait
 inline constexpr std::size_t kRequestBytes = 8192;  // without the body
 inline constexpr double kDeafSeconds =
     10;  // a page that acknowledges nothing for so long is dropped
@@ -43,6 +43,8 @@ class Server {
 
   int port() const { return port_; }
   const std::string& token() const { return token_; }
+  // Returns host and port as this machine's browsers and `ssh -L` take them: "[::1]:8765".
+  std::string place() const;
   std::string url() const;
   void run();              // returns after stop()
   bool isRunning() const;  // until then stop() does nothing
