@@ -90,11 +90,15 @@ struct Texture {
   TexelStrips strips;
   std::size_t firstTexel = 0;
 
-  std::uint32_t texel(int column, int row) const {
-    if (!strips) return rows()[static_cast<std::size_t>(row) * width + column];
+  std::uint32_t texel(int column, int row) const { return *at(column, row); }
+  // The right neighbor of the texel that is returned follows it, and the lower one lies down()
+  // texels later, if the texture has them.
+  const std::uint32_t* at(int column, int row) const {
+    if (!strips) return &rows()[static_cast<std::size_t>(row) * width + column];
     const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
-    return strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
+    return &strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
   }
+  std::size_t down() const { return static_cast<std::size_t>(strips ? kTexelStrip : width); }
   // Returns the texels of a texture without strips.
   const std::vector<std::uint32_t>& rows() const { return late ? late->kept() : texels; }
   std::size_t texelCount() const { return std::size_t{1} * width * height; }
