@@ -1,6 +1,7 @@
 // Images sampled on surfaces and in the sky. Frozen after loading.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -67,6 +68,7 @@ class LateTexels {
   std::vector<std::uint32_t> make() const { return make_(); }
   // Makes the texels at the first call and keeps them.
   const std::vector<std::uint32_t>& kept() const;
+  std::uint64_t keptBytes() const { return keptBytes_; }
 
   std::string recipe;  // everything that the texels depend on; digests tell textures apart by it
 
@@ -74,6 +76,7 @@ class LateTexels {
   std::function<std::vector<std::uint32_t>()> make_;
   mutable std::once_flag once_;
   mutable std::vector<std::uint32_t> kept_;
+  mutable std::atomic<std::uint64_t> keptBytes_{0};
 };
 
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
