@@ -82,8 +82,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   // The surface is interpolated from the corners, on spheres computed, and carried to the world.
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(hits, i);
-  Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
-  if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
+  Surface s = SurfaceAt(job, valid, triangle, job.smooth, i, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
 
   const VU others = job.coplanar ? Load(hits.alsoCrossed, i) : Zero(du);

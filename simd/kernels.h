@@ -201,8 +201,9 @@ struct PacketKernels {
   void (*packRays)(const RayColumns& rays, std::size_t n, float reach, const PacketWords& to);
   void (*packShadowRays)(const ShadowColumns& rays, std::size_t n, float reach,
                          const PacketWords& to);
-  // For scenes without instances: a triangle's number is the number of its class's first triangle
-  // plus its own.
+  // A triangle's number is its own plus that of the first triangle of its class: `triangleBase` has
+  // those of the world and of one instance after the other. Without a column of instances all hits
+  // are in the world.
   void (*unpackHits)(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
                      const HitColumns& hits);
   // Computes t, u and v of hits on triangles from the corners: the last bits of Embree's depend on

@@ -107,6 +107,7 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
                              const HitColumns& hits) {
   const PacketTag<kWidth> d;
   const hn::RebindToUnsigned<decltype(d)> du;
+  const hn::RebindToSigned<decltype(d)> di;
   const auto miss = Set(du, kMiss);
 
   for (size_t i = 0; i < n; i += Lanes(d)) {
@@ -122,9 +123,24 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
     const auto geometry = BitCast(du, load(packet_column::geometry));
     const auto primitive = BitCast(du, load(packet_column::primitive));
     auto base = Set(du, triangleBase[0]);
-    for (uint32_t c = 1; c < kTriangleClasses; ++c) {
-      const auto ofClass = Eq(geometry, Set(du, c));
-      base = IfThenElse(ofClass, Set(du, triangleBase[c]), base);
+    if (hits.instance) {
+      // Placement 0 is the world, which all other ids of Embree stand for; instances follow.
+      const auto id = hn::BitCast(di, load(packet_column::instance));
+      const auto before = hn::Set(di, static_cast<int32_t>(kFirstInstanceId) - 1);
+      const auto placed = hn::Max(hn::Sub(id, before), hn::Zero(di));
+      const auto instance = hn::Sub(placed, hn::Set(di, 1));
+      hn::StoreU(hn::BitCast(du, instance), du, hits.instance + i);
+
+      static_assert(kTriangleClasses == 4);
+      const auto ofClass = hn::And(hn::BitCast(di, geometry), hn::Set(di, 3));
+      const auto* const bases = reinterpret_cast<const int32_t*>(triangleBase);
+      const auto index = hn::Add(hn::ShiftLeft<2>(placed), ofClass);
+      base = hn::BitCast(du, hn::GatherIndex(di, bases, index));
+    } else {
+      for (uint32_t c = 1; c < kTriangleClasses; ++c) {
+        const auto ofClass = Eq(geometry, Set(du, c));
+        base = IfThenElse(ofClass, Set(du, triangleBase[c]), base);
+      }
     }
 
     const auto missed = Eq(geometry, miss);

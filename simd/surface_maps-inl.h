@@ -262,12 +262,26 @@ struct MapHits {
   VF coneWidth, cosine;
 };
 
+// Returns the surface at the hits of the `live` lanes, in the space of their geometry.
+HWY_INLINE Surface SurfaceAt(const SurfelJob& job, MF live, VI triangle, bool smooth, size_t i,
+                             TriangleLanes& t, Weights& w) {
+  const FloatTag d;
+  Surface s{};
+  s.handedness = hn::Set(d, 1.0f);
+
+  // Nothing is interpolated if all hits are on spheres.
+  MF onTriangles = live;
+  if (job.spheres) onTriangles = hn::And(live, AreTriangles(triangle, job.tables.firstSphere));
+  if (!hn::AllFalse(d, onTriangles)) s = InterpolateSurface(job.tables, t, triangle, w, smooth);
+  if (job.spheres) PutOnSpheres(job.tables, job.hits, live, triangle, i, s, t, w);
+  return s;
+}
+
 // Computes the surface at hits on `t` again, and what lookups of maps need of it.
 HWY_INLINE MapHits MapHitsAt(const SurfelJob& job, MF live, VI triangle, TriangleLanes& t,
                              bool smooth, size_t i, Surface& s) {
   Weights w = LoadWeights(job.hits, i);
-  s = InterpolateSurface(job.tables, t, triangle, w, smooth);
-  if (job.spheres) PutOnSpheres(job.tables, job.hits, live, triangle, i, s, t, w);
+  s = SurfaceAt(job, live, triangle, smooth, i, t, w);
   if (job.instances) CarryToWorld(job.tables, job.hits, live, i, s);
 
   const VF cosine = Dot(DirectionAt(job.rays, i), s.ng);

@@ -228,22 +228,6 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
   return lanes;
 }
 
-// Writes the instances that were hit and the numbers of their triangles. The kernel that unpacks
-// hits knows only the triangles of the world.
-template <int kWidth, typename Packet>
-void storeInstances(const EmbreeScene& scene, const Packet* packets, std::size_t n,
-                    const HitColumns& hits) {
-  for (const auto i : indices(n)) {
-    const auto& hit = packets[i / kWidth].hit;
-    const std::size_t lane = i % kWidth;
-    const unsigned instance = hit.instID[0][lane], geometry = hit.geomID[lane];
-    hits.triangle[i] = geometry == RTC_INVALID_GEOMETRY_ID
-                           ? kMiss
-                           : scene.triangleOf(instance, geometry, hit.primID[lane]);
-    hits.instance[i] = scene.instanceOf(instance);
-  }
-}
-
 template <int kWidth>
 std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double& embreeMs) {
   const EmbreeScene& scene = parts.embree;
@@ -257,9 +241,9 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
   };
 
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
-    const HitColumns to = advanced(range.hits, begin);
+    HitColumns to = advanced(range.hits, begin);
+    if (!range.instances) to.instance = nullptr;
     parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
-    if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
 
     // refineHits() reads the corners once all rays of the chunk are traced.
     for (const auto i : indices(n)) {

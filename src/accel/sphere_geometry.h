@@ -11,10 +11,7 @@
 
 namespace whit {
 
-// Spheres follow the four classes of world triangles in a scene; instances follow the spheres in
-// the top-level scene. If a scene moves, its top-level scene holds only instances, and the first of
-// them is the world.
-inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
+// If a scene moves, its top-level scene holds only instances, and the first of them is the world.
 inline constexpr unsigned kWorldId = 0;
 inline bool isInWorld(unsigned instance) {
   return instance == RTC_INVALID_GEOMETRY_ID || instance == kWorldId;

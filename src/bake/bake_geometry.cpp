@@ -65,6 +65,20 @@ struct PlacedTriangle {
   bool turned = false;  // its corners run in the opposite direction, and one side alone is seen
 };
 
+using HashedPlace = std::pair<std::uint64_t, std::size_t>;
+
+// Drops places whose hash no other place has. Two tables, of at least eight bits a place, find
+// nearly all of them.
+void dropSingles(std::vector<HashedPlace>& places) {
+  const std::size_t mask = std::bit_ceil(8 * places.size() + 1) - 1;
+  std::vector<bool> once(mask + 1), twice(mask + 1);
+  for (const auto& [hash, place] : places) {
+    if (once[hash & mask]) twice[hash & mask] = true;
+    once[hash & mask] = true;
+  }
+  std::erase_if(places, [&](const HashedPlace& p) { return !twice[p.first & mask]; });
+}
+
 bool bends(const Object& object) {
   return std::ranges::any_of(object.meshes,
                              [](const Mesh& mesh) { return mesh.deformation != nullptr; });
@@ -297,8 +311,9 @@ class Baker {
 
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
     // Pairs of a hash and an index of `places`.
-    std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());
+    std::vector<HashedPlace> order(places.size());
     for (const auto k : indices(order)) order[k] = {triangle(k).hash(), k};
+    dropSingles(order);
     std::ranges::sort(order);
 
     // Triangles of equal hashes are compared in full, because different ones may share a hash.

@@ -221,7 +221,7 @@ std::uint64_t Scene::memoryBytes() const {
                         items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) {
-    if (!t.late) bytes += t.packedSize() * sizeof(std::uint32_t);
+    bytes += t.late ? t.late->keptBytes() : t.packedSize() * sizeof(std::uint32_t);
   }
   return bytes;
 }

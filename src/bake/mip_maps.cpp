@@ -99,28 +99,38 @@ std::uint32_t meanOfFour(TexelFormat format, const std::array<std::uint32_t, 4>&
   return mean;
 }
 
-Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
+// The threads share the rows of the result.
+Texture halvedBy(const Texture& texture, const TexelWeights* weights, int threads) {
   Texture half = emptyTexture(texture.name, texture.format, std::max(1, texture.width / 2),
                               std::max(1, texture.height / 2));
   half.wrapU = texture.wrapU;
   half.wrapV = texture.wrapV;
 
-  std::uint32_t* to = half.texels.data();
   const bool isEven = texture.width % 2 == 0 && texture.height % 2 == 0;
-  if (isEven && !weights && texture.format != TexelFormat::radiance) {
-    for (int y = 0; y < texture.height; y += 2) {
-      for (int x = 0; x < texture.width; x += 2) {
-        *to++ = meanOfFour(texture.format, {texture.texel(x, y), texture.texel(x + 1, y),
-                                            texture.texel(x, y + 1), texture.texel(x + 1, y + 1)});
-      }
-    }
-    return half;
-  }
-
   const std::vector<TexelCover> columns = texelCovers(texture.width, half.width);
-  for (const TexelCover& row : texelCovers(texture.height, half.height)) {
-    for (const TexelCover& column : columns) *to++ = meanTexel(texture, weights, column, row);
-  }
+  const std::vector<TexelCover> rows = texelCovers(texture.height, half.height);
+
+  const auto fillRow = [&](std::size_t row) {
+    std::uint32_t* to = &half.texels[row * columns.size()];
+    if (!isEven || weights || texture.format == TexelFormat::radiance) {
+      for (const TexelCover& column : columns)
+        *to++ = meanTexel(texture, weights, column, rows[row]);
+      return;
+    }
+
+    for (int column = 0; column < texture.width; column += 2) {
+      const std::uint32_t* const four = texture.at(column, 2 * static_cast<int>(row));
+      const std::size_t down = texture.down();
+      *to++ = meanOfFour(texture.format, {four[0], four[1], four[down], four[down + 1]});
+    }
+  };
+
+  constexpr std::size_t kRows = 64;  // of a task
+  parallelFor(rows.size() > kRows ? threads : 1, (rows.size() + kRows - 1) / kRows,
+              [&](std::size_t task, int) {
+                const std::size_t end = std::min((task + 1) * kRows, rows.size());
+                for (std::size_t row = task * kRows; row < end; ++row) fillRow(row);
+              });
   return half;
 }
 
@@ -157,7 +167,8 @@ void fillUnseen(const TexelWeights& weights, const Texture& above, Texture& leve
   }
 }
 
-std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map) {
+std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map,
+                                   int threads) {
   const Texture* last = &textures[map.texture];
   std::vector<Texture> levels;
   levels.reserve(kMipLevels);
@@ -165,7 +176,7 @@ std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const S
   std::optional<TexelWeights> weights = weightsOf(textures, map);
   std::vector<TexelWeights> weightsOfLevels;
   while (last->width > 1 || last->height > 1) {
-    levels.push_back(halvedBy(*last, weights ? &*weights : nullptr));
+    levels.push_back(halvedBy(*last, weights ? &*weights : nullptr, threads));
     last = &levels.back();
     if (!weights) continue;
 
@@ -208,7 +219,7 @@ ShownMap shownMap(const Material& material, std::int32_t Material::*map) {
   return shown;
 }
 
-Texture halved(const Texture& texture) { return halvedBy(texture, nullptr); }
+Texture halved(const Texture& texture) { return halvedBy(texture, nullptr, 1); }
 
 MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMap>& wanted,
                  int threads)
@@ -220,8 +231,10 @@ MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMa
   // The map has all of its entries before threads fill them.
   std::vector<std::pair<const ShownMap, std::vector<Texture>>*> made;
   for (auto& entry : smaller_) made.push_back(&entry);
+  // Threads beyond the number of maps help with their levels.
+  const int each = std::max(1, threads / std::max(1, static_cast<int>(made.size())));
   parallelFor(threads, made.size(), [&](std::size_t i, int) {
-    made[i]->second = smallerLevels(textures, made[i]->first);
+    made[i]->second = smallerLevels(textures, made[i]->first, each);
   });
 }
 

@@ -54,7 +54,10 @@ void copyTexels(const Texture& t, std::uint32_t* to) {
 }  // namespace
 
 const std::vector<std::uint32_t>& LateTexels::kept() const {
-  std::call_once(once_, [this] { kept_ = make_(); });
+  std::call_once(once_, [this] {
+    kept_ = make_();
+    keptBytes_ = kept_.size() * sizeof(kept_[0]);
+  });
   return kept_;
 }
 

@@ -1,6 +1,7 @@
 // Images sampled on surfaces and in the sky. Frozen after loading.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -67,6 +68,7 @@ class LateTexels {
   std::vector<std::uint32_t> make() const { return make_(); }
   // Makes the texels at the first call and keeps them.
   const std::vector<std::uint32_t>& kept() const;
+  std::uint64_t keptBytes() const { return keptBytes_; }
 
   std::string recipe;  // everything that the texels depend on; digests tell textures apart by it
 
@@ -74,6 +76,7 @@ class LateTexels {
   std::function<std::vector<std::uint32_t>()> make_;
   mutable std::once_flag once_;
   mutable std::vector<std::uint32_t> kept_;
+  mutable std::atomic<std::uint64_t> keptBytes_{0};
 };
 
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
@@ -90,11 +93,15 @@ struct Texture {
   TexelStrips strips;
   std::size_t firstTexel = 0;
 
-  std::uint32_t texel(int column, int row) const {
-    if (!strips) return rows()[static_cast<std::size_t>(row) * width + column];
+  std::uint32_t texel(int column, int row) const { return *at(column, row); }
+  // The right neighbor of the texel that is returned follows it, and the lower one lies down()
+  // texels later, if the texture has them.
+  const std::uint32_t* at(int column, int row) const {
+    if (!strips) return &rows()[static_cast<std::size_t>(row) * width + column];
     const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
-    return strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
+    return &strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
   }
+  std::size_t down() const { return static_cast<std::size_t>(strips ? kTexelStrip : width); }
   // Returns the texels of a texture without strips.
   const std::vector<std::uint32_t>& rows() const { return late ? late->kept() : texels; }
   std::size_t texelCount() const { return std::size_t{1} * width * height; }

@@ -143,6 +143,38 @@ TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
   });
 }
 
+TEST_F(Packets, TellOnWhichInstanceATriangleWasHit) {
+  // The world and two instances have four classes of triangles each.
+  std::vector<std::uint32_t> triangleBase(3 * kTriangleClasses);
+  for (std::size_t i = 0; i < triangleBase.size(); ++i) {
+    triangleBase[i] = 1000 * static_cast<std::uint32_t>(i + 1);
+  }
+
+  // Embree's ids: of none, of the world in scenes that move, and of the instances.
+  const std::uint32_t ids[] = {kMiss, 0, kFirstInstanceId, kFirstInstanceId + 1};
+  const std::uint32_t instances[] = {kMiss, kMiss, 0, 1}, placed[] = {0, 0, 1, 2};
+
+  forEachWidthAndTarget([&](std::size_t width) {
+    for (std::size_t i = 0; i < kPacked; ++i) {
+      const auto number = static_cast<std::uint32_t>(i);
+      word(i, packet_column::primitive, width) = floatOf(number);
+      word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
+      word(i, packet_column::instance, width) = floatOf(i % 5 == 4 ? kMiss : ids[i % 4]);
+    }
+
+    ColumnStore<HitColumns> hits(kPacked, FeatureSet().with(Feature::instances));
+    simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase.data(), *hits);
+
+    for (std::size_t i = 0; i < kPacked; ++i) {
+      const bool missed = i % 5 == 4;
+      const auto number = static_cast<std::uint32_t>(i);
+      const std::size_t base = placed[i % 4] * kTriangleClasses + i % 5;
+      EXPECT_EQ(hits->instance[i], missed ? kMiss : instances[i % 4]) << i;
+      EXPECT_EQ(hits->triangle[i], missed ? kMiss : triangleBase[base] + number) << i;
+    }
+  });
+}
+
 TEST_F(Packets, GiveVisibilityBackToTheSlots) {
   forEachWidthAndTarget([&](std::size_t width) {
     std::vector<std::uint32_t> slot(kPacked);

@@ -88,9 +88,11 @@ TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
   buildTables(scene, EffectSet::all().without(Effect::textures), {});
   EXPECT_EQ(colors + masks, 0);
 
+  const std::uint64_t before = scene.memoryBytes();
   const RayQueries queries(scene, 1, nullptr);
   EXPECT_EQ(colors, 0);
   EXPECT_EQ(masks, 1);
+  EXPECT_EQ(scene.memoryBytes(), before + 2 * sizeof(std::uint32_t)) << "the texels of the mask";
 
   const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
   EXPECT_EQ(colors, 1);

@@ -423,6 +423,39 @@ TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
   EXPECT_GT(coplanar, 500u);
 }
 
+// Returns a triangle in one of two floors; one in three is a needle.
+Mesh randomTriangle(std::mt19937& random) {
+  const auto below = [&](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
+  const double x = below(5), y = below(5), width = 0.5 + below(2);
+  const double depth = random() % 3 == 0 ? 0.01 : 0.5 + below(2);
+  Mesh mesh = tile(x, y, width, depth, static_cast<double>(random() % 2));
+  mesh.triangles.pop_back();
+  return mesh;
+}
+
+TEST(CoplanarTriangles, TurnedAndShearedInstancesAreAsDefined) {
+  // These maps keep triangles in their floors.
+  const Affine turned = Affine::rotation({0, 0, 1}, 31);
+  Affine sheared;
+  sheared.y.x = 0.5;
+
+  std::mt19937 random(11);
+  std::size_t coplanar = 0;
+  // Trees have nodes of eight, so the numbers of triangles are about its powers.
+  for (const int count : {1, 3, 7, 8, 9, 63, 65}) {
+    std::vector<Mesh> object;
+    for (int i = 0; i < count; ++i) object.push_back(randomTriangle(random));
+
+    Builder builder;
+    builder.add({randomTriangle(random), tile(1, 1, 2, 3), tile(-2, 0, 2.5, 2, 1)});
+    builder.add(object, {Affine{}, turned, sheared, turned * sheared, sheared * turned});
+    coplanar += expectAsDefined(builder.scene());
+    builder.move(farAndTurned());
+    coplanar += expectAsDefined(builder.scene());
+  }
+  EXPECT_GT(coplanar, 500u);
+}
+
 TEST(CoplanarTriangles, ManyTilesInOnePlane) {
   constexpr int kTiles = 200;
   Mesh floor;
@@ -445,7 +478,6 @@ TEST(CoplanarTriangles, ManyTilesInOnePlane) {
 
   // One decal lies strictly within a tile. Coplanar are its two triangles, the tile's two, and the
   // 14 around these.
-  // One decal strictly within a tile: its two triangles, the tile's, and the 14 around these.
   builder.add({rectangle({10.02, 0, 10.02}, {0.06, 0, 0}, {0, 0, 0.06})});
   const Scene scene = builder.scene();
   const CoplanarTriangles found = foundAmong(scene);

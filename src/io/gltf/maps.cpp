@@ -199,6 +199,14 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
 
   Images maps = emptyMaps(m, images[kBase].get(), width, height);
 
+  // A base color that nothing dims is encoded as it is, which is faster.
+  std::optional<Texture>& diffuseMap = maps[kGltfDiffuse];
+  const RawImage* const own = images[kBase].get();
+  const bool isDimmed = m.mixesMetal() || m.variesTransmission();
+  const bool isPlain =
+      diffuseMap && own && !isDimmed && own->width == width && own->height == height;
+  if (isPlain) diffuseMap->texels = makeTexture(m.name, *own, diffuseMap->format).texels;
+
   // Factors of the material follow from the means of the images.
   RgbD colors, tintSum;
   double metallic = 0, strengths = 0;
@@ -217,10 +225,10 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
 
       // Only light that is neither reflected by metal nor transmitted is reflected diffusely.
       const float clear = clears.at(x, y).code[0], rest = 1 - metal;
-      if (maps[kGltfDiffuse]) {
+      if (diffuseMap && !isPlain) {
         const float blocked = m.variesTransmission() ? 1 - m.transmission * clear : 1;
         const Rgb diffuse = base * ((m.mixesMetal() ? rest : 1) * blocked);
-        maps[kGltfDiffuse]->texels[i] = encodeTexel(diffuse, maps[kGltfDiffuse]->format);
+        diffuseMap->texels[i] = encodeTexel(diffuse, diffuseMap->format);
       }
 
       if (maps[kGltfTransmission]) {

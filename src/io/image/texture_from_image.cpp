@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/display.h"
+
 namespace whit {
 
 namespace {
@@ -17,6 +19,22 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
     count += std::max({r, g, b}) > limit;
   }
   return count;
+}
+
+// Encodes an image of 8-bit codes, of which there are so few that a table holds all results.
+void fillColors(const RawImage& raw, std::vector<std::uint32_t>& texels) {
+  std::array<std::uint32_t, 256> encoded{};
+  for (int code = 0; code < 256; ++code) {
+    encoded[static_cast<std::size_t>(code)] = encodeColorTexel(Rgb(linearOfCode(code)));
+  }
+
+  const std::size_t green = raw.channels < 3 ? 0 : 1, blue = 2 * green;
+  const std::uint8_t* codes = raw.codes.data();
+  for (std::uint32_t& texel : texels) {
+    texel = (encoded[codes[0]] & 0x3ffu) | (encoded[codes[green]] & 0xffc00u) |
+            (encoded[codes[blue]] & 0x3ff00000u);
+    codes += raw.channels;
+  }
 }
 
 int cubeSide(const RawImage& raw) { return std::min(raw.width, raw.height / 6); }
@@ -78,6 +96,11 @@ std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
 
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
   Texture texture = emptyTexture(name, format, raw.width, raw.height);
+  if (format == TexelFormat::color && !raw.linear) {
+    fillColors(raw, texture.texels);
+    return texture;
+  }
+
   for (const auto i : indices(texture.texels)) {
     if (format == TexelFormat::data) {
       const auto [r, g, b, a] = valuesAt(raw, i);
