@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "io/files.h"
 
 namespace whit::view {
 
@@ -15,50 +15,63 @@ namespace {
 constexpr double kIdleSeconds = 0.25;     // longest wait for events, then the file is looked at
 constexpr double kLongestSeconds = 0.1;   // longest step: a stall does not make the camera leap
 constexpr double kUndrawnSeconds = 0.05;  // longest time without drawing while a picture is due
-// ImGui answers to an event within three frames: the first shows it, the second what it opened or
-// changed, and in the third windows fit their contents.
-constexpr int kFramesToAnswer = 3;
+// ImGui answers to an event within four frames: the first shows it, the second what it opened or
+// changed, and in the others the tab and then the panel fit their contents.
+constexpr int kFramesToAnswer = 4;
 
 }  // namespace
 
 App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Window& window,
          const KeptSettings& kept, ScriptedUser* scripted)
-    : Session(options, scene, &Window::wake), scripted_(scripted), window_(window) {
-  static_cast<KeptSettings&>(settings_) = kept;
-  rememberRecent(options.scene, settings_.recent);
-  settings_.tab = kept.tabShown;
+    : scripted_(scripted),
+      window_(window),
+      session_(options, scene, &Window::wake),
+      shown_{kept},
+      sceneName_(options.scene) {
+  rememberRecent(sceneName_, shown_.recent);
+  if (kept.panel) shown_.over = Over::panel;
 
-  if (message_.empty()) {
-    say("H: help. Drag to turn, Shift to pan, wheel to go forward, W A S D to walk");
-  }
-  messageSeconds_ = std::numeric_limits<double>::infinity();  // until a key or a click
+  // The hint stays until a key or a click.
+  hints_ = session_.state().message.empty();
+  if (!hints_) return;
+  session_.say("H: the keys, P: the panel. Drag to turn, the wheel goes forward",
+               std::numeric_limits<double>::infinity());
+}
+
+KeptSettings App::kept() const {
+  KeptSettings kept = shown_;
+  kept.panel = shown_.over == Over::panel;
+  return kept;
 }
 
 void App::run() {
   while (step()) {
     if (!window_.closing()) continue;
-    if (mayQuit()) return;
+    if (mayLoseEdits("Esc once more quits")) return;
     window_.setClosing(false);
   }
 }
 
 bool App::step() {
   window_.poll(waitSeconds());
-  const bool fresh = fetchFrame();
+  const bool fresh = session_.fetchFrame();
   window_.poll(0);  // the next picture includes what the user did until this one came
   const double seconds = tick();
 
   // A script takes the place of the user's events.
   if (scripted_) {
     window_.input = Input();
-    if (!scripted_->act(sharp_, window_.input, settings_)) return false;
+    if (!scripted_->act(session_.state().sharp, window_.input, shown_)) return false;
+    if (!shown_.supersample) session_.endSupersampling();
   }
 
   // The next picture is requested first, so that it is traced while this one is drawn.
+  session_.setWindow(window_.pixels(), window_.size().height, window_.scale());
   handleInput();
-  servePanel();
-  advance(keysAndDrags(), seconds);
-  if (savesPicture_ && isComplete()) savePicture();
+  session_.advance(seconds);
+  if (savesPicture_ && session_.isComplete()) act("save-picture");
+  followScene();
+  tellErrors();
 
   if (fresh) showPicture();
   if (worthDrawing(fresh, seconds)) draw();
@@ -67,20 +80,20 @@ bool App::step() {
 }
 
 double App::waitSeconds() const {
-  if (scripted_) return thread_.busy() ? ScriptedUser::kSecondsPerFrame : 0;
+  if (scripted_) return session_.isBusy() ? ScriptedUser::kSecondsPerFrame : 0;
   if (drawAgain_ > 0) return 0;
-  if (thread_.committed()) return kUndrawnSeconds;  // no request is taken until it is finished
+  if (session_.isCommitted()) return kUndrawnSeconds;  // no request is taken until it is finished
 
   // While something moves the loop keeps the frame rate; otherwise events wake it.
-  const bool active = !window_.input.held.empty() || isActive();
-  return active ? 1 / resolution_.rate() : kIdleSeconds;
+  const bool active = !window_.input.held.empty() || session_.isActive();
+  return active ? 1 / session_.rate() : kIdleSeconds;
 }
 
 // While a picture is under way this thread waits for it rather than draw the last one again.
 bool App::worthDrawing(bool fresh, double seconds) {
   undrawnSeconds_ += seconds;
   drawAgain_ = window_.input.happened ? kFramesToAnswer : std::max(drawAgain_ - 1, 0);
-  const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
+  const bool awaited = session_.isCommitted() && undrawnSeconds_ < kUndrawnSeconds;
   const bool wanted = fresh || drawAgain_ > 0 || scripted_;
   if (awaited && !wanted) return false;
 
@@ -94,88 +107,91 @@ double App::tick() {
   return std::min(seconds, kLongestSeconds);
 }
 
+// Names another scene in the title and in the list of recent ones.
+void App::followScene() {
+  const ViewState& state = session_.state();
+  if (state.sceneName == sceneName_) return;
+  sceneName_ = state.sceneName;
+  rememberRecent(sceneName_, shown_.recent);
+  window_.setTitle("whit: " + state.scene->scene.name);
+}
+
+void App::tellErrors() {
+  const ViewState& state = session_.state();
+  if (std::exchange(errors_, state.errors) == state.errors) return;
+  if (scripted_ && !scripted_->survivesErrors()) {
+    throw Error(ExitStatus::checkFailed, state.error);
+  }
+  std::fprintf(stderr, "whit-view: %s\n", printable(state.error).c_str());
+}
+
 // Fills the window with the frame.
 void App::showPicture() {
-  if (!shown_.scene) return;
-  if (unfinished_) {
-    window_.upload(unfinished_->display, unfinished_->request.window);
+  const ViewState& state = session_.state();
+  if (!state.shown.scene) return;
+  if (state.unfinished) {
+    window_.upload(state.unfinished->display, state.unfinished->request.window);
   } else {
-    window_.upload(shown_.film.display, shown_.request.window);
+    window_.upload(state.shown.film.display, state.shown.request.window);
   }
-}
-
-void App::drawPanel() {
-  if (!shown_.scene) return;
-  if (settings_.words && drawTimeline(settings_.timeline)) {
-    restSeconds_ = 0;
-    followCamera();
-  }
-
-  if (listsCameras_) {
-    const auto chosen = drawCameras(scene().cameras, followed_);
-    if (chosen) jumpToNumber(*chosen);
-  }
-
-  if (!settings_.shown) return;
-  const PanelSettings before = settings_;
-  const std::vector<std::string> edits =
-      panel_.draw(shown_, rays_, costs_, settings_, ownSky_, edited_);
-
-  // A change resets the rest, so that the picture sharpens again from coarse to fine.
-  if (!edits.empty()) edit(edits);
-  if (settings_.options != before.options || settings_.view != before.view) restSeconds_ = 0;
-}
-
-void App::inspectPointed() const {
-  const bool somebodyPoints = !scripted_ || window_.input.pointer;
-  if (!settings_.words || !shown_.debug || !somebodyPoints) return;
-
-  const auto at = window_.pointed();
-  if (!at) return;
-  drawInspection(inspect(shown_, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
 }
 
 void App::draw() {
   window_.begin();
-  if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
-  drawPanel();
+  const ViewState& state = session_.state();
 
-  const bool says = settings_.words && messageSeconds_ > 0 && error_.empty();
-  if (says) drawMessage(message_);
-  if (shown_.scene && settings_.words && (settings_.shown || shown_.debug)) {
-    drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr,
-               pictureMs_ > 0 ? 1000 / pictureMs_ : 0, says);
+  // What the user asks for is done when all is drawn.
+  std::vector<std::string> said;
+  const float bottom = drawBottom(said);
+  if (state.shown.scene) {
+    if (shown_.lines) drawRayLines(state.rays, state.shown.request.camera, panel_.pointedAt());
+    drawOver(bottom, said);
+    inspectPointed();
   }
 
-  inspectPointed();
-  if (!error_.empty() && !drawError(error_)) error_.clear();
   window_.end();
   if (scripted_) scripted_->drawn();
   window_.present();
+  for (const std::string& line : said) act(line);
 }
 
-void App::fail(const std::string& error) {
-  if (scripted_ && !scripted_->survivesErrors()) throw Error(ExitStatus::checkFailed, error);
-  std::fprintf(stderr, "whit-view: %s\n", printable(error).c_str());
-  error_ = error;
-}
-
-// Opens a scene, or shows an image as the sky.
-void App::openFile(const std::string& file) {
-  const std::string extension = extensionOf(file);
-  if (extension == ".hdr" || extension == ".exr") {
-    showSky(file);
-    return;
+// Fills the bottom of the window upwards; returns the top of that.
+float App::drawBottom(std::vector<std::string>& said) const {
+  const ViewState& state = session_.state();
+  auto bottom = static_cast<float>(window_.size().height);
+  if (shown_.words) bottom = drawTimeline(state.timeline, bottom, said);
+  if (!state.error.empty()) {
+    bottom = drawError(state.error, bottom, said);
+  } else if (shown_.words && !state.message.empty()) {
+    bottom = drawMessage(state.message, bottom);
   }
-  open(file);
+
+  const bool says = shown_.over == Over::panel || state.shown.debug;
+  return shown_.words && state.shown.scene && says ? drawStatus(state, bottom) : bottom;
 }
 
-void App::showSky(const std::string& file) {
-  edited_.sky = skyFrom(file);
-  std::vector<std::string> settings;
-  stateSky(edited_, settings);
-  edit(settings);
-  say("sky: " + file);
+void App::drawOver(float bottom, std::vector<std::string>& said) {
+  const ViewState& state = session_.state();
+  if (shown_.over == Over::cameras) drawCameras(state, said);
+  if (shown_.over == Over::keys) drawKeys(bottom);
+  if (shown_.over != Over::panel) return;
+
+  SceneChange change;
+  bool open = true;
+  panel_.draw(state, bottom, shown_, shown_.lines, open, said, change);
+  if (!open) shown_.over = Over::nothing;
+  if (!change.settings.empty()) session_.edit(change.settings, change.edited);
+}
+
+void App::inspectPointed() const {
+  const TracedFrame& frame = session_.state().shown;
+  const bool somebodyPoints = !scripted_ || window_.input.pointer;
+  if (!shown_.words || !frame.debug || !somebodyPoints) return;
+
+  const auto at = window_.pointed();
+  if (!at) return;
+  const std::string text = inspect(frame, window_.pixels(), window_.pixelAt(*at));
+  drawInspection(text, at->x, at->y);
 }
 
 }  // namespace whit::view

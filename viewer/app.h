@@ -9,6 +9,17 @@
 
 namespace whit::view {
 
+// What is open over the picture.
+enum class Over { nothing, panel, cameras, keys };
+
+// What the window shows besides the session's picture.
+struct WindowState : KeptSettings {
+  Over over = Over::nothing;
+  bool words = true;        // anything is written or drawn over the picture
+  bool lines = true;        // the rays of the clicked pixel are drawn into the scene
+  bool supersample = true;  // at rest; scripts compare pictures without
+};
+
 // Takes the place of keys, mouse and clock: tests play scripts.
 class ScriptedUser {
  public:
@@ -17,14 +28,14 @@ class ScriptedUser {
   virtual ~ScriptedUser() = default;
   // Makes the input of the next frame. `sharp`: nothing moves and the picture gets no finer.
   // Returns false to end the viewer.
-  virtual bool act(bool sharp, Input& input, PanelSettings& settings) = 0;
+  virtual bool act(bool sharp, Input& input, WindowState& shown) = 0;
   // Called when a frame was drawn, before it is presented.
   virtual void drawn() = 0;
   // True: errors are shown as to a person; false: they end the viewer.
   virtual bool survivesErrors() const = 0;
 };
 
-class App : public Session {
+class App {
  public:
   // The constructor may run on another thread than the window's, which may only draw the window
   // meanwhile.
@@ -35,7 +46,7 @@ class App : public Session {
   // scripted user does not survive them.
   void run();
   // Returns the settings as the user left them, with the window's size as it was read.
-  const KeptSettings& kept() const { return settings_; }
+  KeptSettings kept() const;
 
  private:
   // app.cpp:
@@ -43,37 +54,39 @@ class App : public Session {
   double waitSeconds() const;
   bool worthDrawing(bool fresh, double seconds);
   double tick();
+  void followScene();
+  void tellErrors();
   void showPicture();
-  void drawPanel();
-  void inspectPointed() const;
   void draw();
-  void fail(const std::string& error) override;
-  ImageSize windowPixels() const override { return window_.pixels(); }
-  void opened() override { window_.setTitle("whit: " + scene().name); }
+  float drawBottom(std::vector<std::string>& said) const;
+  void drawOver(float bottom, std::vector<std::string>& said);
+  void inspectPointed() const;
 
   // app_keys.cpp:
-  CameraMotion keysAndDrags() const;
-  template <typename Action>
-  void attempt(const Action& action);
   void handleInput();
-  void handleKey(int key);
-  void closeOrQuit();
-  bool mayQuit();
+  void move(const Input& input);
+  void act(const std::string& line);
+  void turn(Over over);
+  void close();
+  bool mayLoseEdits(const char* next);
   void savePicture();
-  void printView();
+  void copyCommand();
   void click(const Input::Click& place);
   void saveScene();
-  void servePanel();
-  void openFile(const std::string& file);
-  void showSky(const std::string& file);
+  void open(const std::string& file);
 
   ScriptedUser* scripted_;  // null: a person
   Window& window_;
+  Session session_;
+  WindowState shown_;
   Panel panel_;
-  bool listsCameras_ = false;
+  bool isHeld_ = false;        // some key was in the last frame
+  bool hints_ = true;          // the hint of the start is shown
   bool savesPicture_ = false;  // as soon as it is complete
   // The edits of which the user was asked whether they may be lost.
   std::optional<std::vector<std::string>> askedAbout_;
+  int errors_ = 0;  // that were told
+  std::string sceneName_;
   double undrawnSeconds_ = 0;
   int drawAgain_ = 0;  // frames to draw without waiting, see kFramesToAnswer
   Stopwatch sinceTick_;

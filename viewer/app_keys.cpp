@@ -1,157 +1,87 @@
-// The actions of keys and mouse.
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
-#include <cmath>
+// What keys, mouse and the panel do.
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <string_view>
 
 #include "core/text.h"
+#include "io/files.h"
 #include "viewer/app.h"
-#include "viewer/session/view_files.h"
+#include "viewer/session/verbs.h"
 
 namespace whit::view {
 
-namespace {
-
-constexpr float kExposureStep = 0.25f;
-
-// GLFW's codes of letters are their ASCII codes.
-bool flies(int key) {
-  return key < 128 && std::string_view("WASDQE").find(static_cast<char>(key)) != std::string::npos;
-}
-
-constexpr KeyHelp kHelp[] = {
-    {"left drag", "orbit a model; look around in a room"},
-    {"middle or Shift drag", "pan"},
-    {"wheel, right drag", "move closer to a model; walk forward or back in a room"},
-    {"F", "fit what is looked at; first camera of a room"},
-    {"Home", "first camera"},
-    {"W A S D, Q E", "walk; down and up"},
-    {"Shift, arrows", "four times as fast; look around"},
-    {"click; T", "the rays of that pixel; their lines, or not"},
-    {"1 ... 9; L", "cameras of the scene; their list"},
-    {"Space", "play or pause what moves, or fly the camera path"},
-    {"[ ]", "exposure"},
-    {"F11", "full screen"},
-    {"H", "this panel"},
-    {"V", "depth, normals and other views, with the value of each pixel"},
-    {"C", "print and copy the view as whit render makes it"},
-    {"F12", "save PNG and EXR at full resolution, print the command"},
-    {"R", "reload the scene"},
-    {"Ctrl+Z", "undo the last edit"},
-    {"Ctrl+S", "save what was edited as a scene file"},
-    {"drop a file", "open it; an HDR or EXR image as the sky"},
-    {"Esc", "close what is open; then quit"}};
-
-}  // namespace
-
-std::span<const KeyHelp> keyHelp() { return kHelp; }
-
-CameraMotion App::keysAndDrags() const {
-  const Input& input = window_.input;
-
-  // A pair of opposite keys gives -1, 0 or 1.
-  const auto axis = [&](int positive, int negative) {
-    return static_cast<double>(input.isHeld(positive)) -
-           static_cast<double>(input.isHeld(negative));
-  };
-
-  CameraMotion motion = motionOf(input, window_.size().height, window_.scale());
-  motion.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
-  motion.right = axis(GLFW_KEY_D, GLFW_KEY_A);
-  motion.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
-  motion.fast = input.isHeld(GLFW_KEY_LEFT_SHIFT) || input.isHeld(GLFW_KEY_RIGHT_SHIFT);
-  motion.turnRight = axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
-  motion.turnUp = axis(GLFW_KEY_UP, GLFW_KEY_DOWN);
-  return motion;
-}
-
-// Shows the error if the user's action fails.
-template <typename Action>
-void App::attempt(const Action& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
-}
-
 void App::handleInput() {
   Input& input = window_.input;
-  // Dragging takes the camera off the path that it flies along.
-  if (input.left.any() || input.right.any() || input.middle.any()) pathTime_.reset();
-
-  // The hint of the start stays until the first key or click.
   const auto clicked = window_.takeClick();
-  const bool hinted = std::isinf(messageSeconds_);
-  if (hinted && (clicked || !input.pressed.empty() || !input.commands.empty())) messageSeconds_ = 0;
-
-  for (const int key : input.pressed) {
-    if (flies(key)) pathTime_.reset();
-    attempt([&] { handleKey(key); });
+  if (hints_ && (clicked || !input.pressed.empty())) {
+    hints_ = false;
+    session_.say("");
   }
 
-  // These keys were pressed together with Ctrl.
-  for (const int key : input.commands) {
-    settings_.saveScene |= key == GLFW_KEY_S;
-    if (key == GLFW_KEY_Z) undoEdit();
+  move(input);
+  for (const std::string& key : input.pressed) act(lineOfKey(key));
+  if (clicked) click(*clicked);
+  if (!input.dropped.empty()) act("open " + input.dropped.front());
+}
+
+// Hands on what moves the camera.
+void App::move(const Input& input) {
+  for (const auto& [verb, drag] :
+       {std::pair{"left", input.left}, {"middle", input.middle}, {"right", input.right}}) {
+    if (drag.any()) act(formatted("%s %.17g %.17g", verb, drag.x, drag.y));
   }
+  if (input.wheel != 0) act(formatted("wheel %.17g", input.wheel));
 
-  if (clicked) attempt([&] { click(*clicked); });
-  if (!input.dropped.empty()) attempt([&] { openFile(input.dropped.front()); });
-}
-
-void App::servePanel() {
-  attempt([&] {
-    if (std::exchange(settings_.saveScene, false)) saveScene();
-    if (std::exchange(settings_.timeline.another, false)) changeAnimation();
-    if (!settings_.open.empty()) openFile(std::exchange(settings_.open, std::string()));
-  });
-}
-
-void App::handleKey(int key) {
-  const std::map<int, std::function<void()>> actions{
-      {GLFW_KEY_ESCAPE, [&] { closeOrQuit(); }},
-      {GLFW_KEY_F11, [&] { window_.toggleFullScreen(); }},
-      {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
-      {GLFW_KEY_F, [&] { fitView(window_.size()); }},
-      {GLFW_KEY_HOME, [&] { jumpToNumber(0); }},
-      {GLFW_KEY_L, [&] { listsCameras_ = !listsCameras_; }},
-      {GLFW_KEY_R, [&] { reload(); }},
-      {GLFW_KEY_F12,
-       [&] {
-         savesPicture_ = true;
-         holdStill();
-         say("the picture is saved as soon as it has full resolution and all samples");
-       }},
-      {GLFW_KEY_C, [&] { printView(); }},
-      {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
-      {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
-      {GLFW_KEY_V, [&] { showNextView(); }},
-      {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
-      {GLFW_KEY_SPACE, [&] { playOrPause(); }},
-  };
-
-  const auto found = actions.find(key);
-  if (found != actions.end()) found->second();
-
-  // The digits show the cameras of the scene.
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
-    jumpToNumber(static_cast<std::size_t>(key - GLFW_KEY_1));
+  // Keys that are held are told again and again, and that they were let go is told once.
+  if (std::exchange(isHeld_, !input.held.empty()) || isHeld_) {
+    // A pair of opposite keys gives -1, 0 or 1.
+    const auto axis = [&](const char* positive, const char* negative) {
+      return static_cast<int>(input.isHeld(positive)) - static_cast<int>(input.isHeld(negative));
+    };
+    act(formatted("hold %d %d %d %d %d %d", axis("W", "S"), axis("D", "A"), axis("E", "Q"),
+                  axis("Right", "Left"), axis("Up", "Down"), axis("Shift", "")));
   }
 }
 
-void App::closeOrQuit() {
-  if (!error_.empty()) {
-    error_.clear();
-  } else if (listsCameras_) {
-    listsCameras_ = false;
-  } else if (settings_.shown) {
-    settings_.shown = false;
-  } else if (rays_.scene) {
-    forgetRays();
+// Does what a line says. The window's own verbs are those that the table leaves to it. Errors are
+// shown.
+void App::act(const std::string& line) try {
+  const std::size_t end = line.find(' ');
+  const std::string verb = line.substr(0, end);
+  const std::string rest = end == std::string::npos ? "" : line.substr(end + 1);
+
+  const std::map<std::string_view, std::function<void()>> own{
+      {"cameras", [&] { turn(Over::cameras); }},
+      {"keys", [&] { turn(Over::keys); }},
+      {"panel", [&] { turn(Over::panel); }},
+      {"lines", [&] { shown_.lines = !shown_.lines; }},
+      {"save-scene", [&] { saveScene(); }},
+      {"save-picture", [&] { savePicture(); }},
+      {"copy", [&] { copyCommand(); }},
+      {"open", [&] { open(rest); }},
+      {"full-screen", [&] { window_.toggleFullScreen(); }},
+      {"close", [&] { close(); }}};
+  const auto found = own.find(verb);
+  if (found == own.end()) {
+    session_.act(line);
+  } else {
+    found->second();
+  }
+} catch (const std::exception& error) {
+  session_.fail(error.what());
+}
+
+// Opens what is not open, and closes what is.
+void App::turn(Over over) { shown_.over = shown_.over == over ? Over::nothing : over; }
+
+void App::close() {
+  if (!session_.state().error.empty()) {
+    session_.act("dismiss");
+  } else if (shown_.over != Over::nothing) {
+    shown_.over = Over::nothing;
+  } else if (session_.state().rays.scene) {
+    session_.act("forget");
   } else if (window_.isFullScreen()) {
     window_.toggleFullScreen();
   } else {
@@ -159,62 +89,80 @@ void App::closeOrQuit() {
   }
 }
 
-// Asks once before edits are lost, and again after further edits.
-bool App::mayQuit() {
-  const std::vector<std::string>& settings = edited_.settings;
-  if (settings == savedSettings_ || settings == askedAbout_) return true;
+// Asks once before edits are lost, and again after further edits; `next` says what to do then.
+bool App::mayLoseEdits(const char* next) {
+  const std::vector<std::string>& settings = session_.state().edited.settings;
+  if (!session_.hasUnsavedEdits() || settings == askedAbout_) return true;
   askedAbout_ = settings;
-  say("there are edits that no file has: Ctrl+S saves them, Esc once more quits without them");
+  session_.say(
+      formatted("there are edits that no file has: Ctrl+S saves them, %s without them", next));
   return false;
 }
 
+// Saves the picture, or says that it will be saved when it is complete.
 void App::savePicture() {
-  savesPicture_ = false;
-  attempt([&] {
-    const std::string name = view::savePicture(shown_);
-    std::printf("%s\n", command(shown_.options).c_str());
-    std::fflush(stdout);
+  savesPicture_ = !session_.isComplete();
+  if (savesPicture_) {
+    session_.holdStill();
+    session_.say("the picture is saved as soon as it has full resolution and all samples");
+    return;
+  }
 
-    const Image& image = shown_.film.image;
-    say(formatted("saved %s.png and .exr, %d x %d, %d samples a pixel", name.c_str(), image.width,
-                  image.height, shown_.request.spp));
-  });
+  const TracedFrame& frame = session_.state().shown;
+  const std::string files = view::savePicture(frame);
+  std::printf("%s\n", session_.command().c_str());
+  std::fflush(stdout);
+
+  const Image& image = frame.film.image;
+  session_.say(formatted("saved %s, %d x %d, %d samples a pixel", files.c_str(), image.width,
+                         image.height, frame.request.spp));
 }
 
-void App::printView() {
-  if (!shown_.scene) return;
+void App::copyCommand() {
+  const std::string command = session_.command();
+  if (command.empty()) return;
 
-  const std::string text = command(viewOptions());
-  std::printf("%s\n", text.c_str());
+  std::printf("%s\n", command.c_str());
   std::fflush(stdout);
-  window_.setClipboard(text);
-  say(formatted("the view as whit render --spp %d makes it: printed, and in the clipboard",
-                viewOptions().spp));
+  window_.setClipboard(command);
+  session_.say("the command that makes this picture is printed, and in the clipboard");
 }
 
 void App::saveScene() {
-  if (!shown_.scene) return;
+  if (!session_.state().shown.scene) return;
 
-  // The lock keeps the animation from moving the scene while it is written.
-  const std::lock_guard lock(scene_->moving);
-  const SavedScene saved = view::saveScene(options_.common.load, sceneName_, shown_,
-                                           control_.camera(), viewOptions(), settings_.options);
+  const SavedScene saved = session_.saveScene();
   std::printf("%s\n", saved.command.c_str());
   std::fflush(stdout);
-  savedSettings_ = shown_.edited->settings;
-  say("saved the scene as " + saved.file + "; the command that renders it is printed");
+  session_.say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
 
 void App::click(const Input::Click& place) {
-  if (!shown_.scene) return;
-
   const auto [x, y] = window_.pixelAt(place);
-  pick(x, y);
+  act(formatted("click %d %d", x, y));
 
   // The scene's tab stays, because it shows the material and the light of the pixel.
-  if (!settings_.shown || settings_.tabShown != "scene") settings_.tab = "rays";
-  settings_.shown = true;
-  settings_.keepClear = static_cast<float>(place.x);
+  const bool stays = shown_.over == Over::panel && shown_.tab == "scene";
+  if (!stays) shown_.tab = "rays";
+  shown_.over = Over::panel;
+  shown_.lines = true;
+  panel_.keepClear(place.x, place.y);
+}
+
+// Opens a scene, or shows an image as the sky.
+void App::open(const std::string& file) {
+  const std::string extension = extensionOf(file);
+  if (extension != ".hdr" && extension != ".exr") {
+    if (mayLoseEdits("once more opens the other scene")) session_.open(file);
+    return;
+  }
+
+  EditedScene edited = session_.state().edited;
+  edited.sky = skyFrom(file);
+  std::vector<std::string> settings;
+  stateSky(edited, settings);
+  session_.edit(settings, edited);
+  session_.say("sky: " + file);
 }
 
 }  // namespace whit::view

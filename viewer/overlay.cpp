@@ -6,6 +6,8 @@
 #include <array>
 #include <optional>
 
+#include "core/index.h"
+#include "core/option_table.h"
 #include "core/text.h"
 #include "viewer/window.h"
 
@@ -16,13 +18,13 @@ namespace {
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
 constexpr ImU32 kBrightWhite = IM_COL32(255, 255, 255, 255), kDarkShade = IM_COL32(0, 0, 0, 190);
 
-// Draws words above the panels, which would hide them. The shade goes beyond the text by `margin`
+// Draws words below the panels. The shade goes beyond the text by `margin`
 // and has round corners of that radius.
 void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
                ImU32 shade = kShade) {
-  const float widest = ImGui::GetIO().DisplaySize.x;
+  const float widest = ImGui::GetIO().DisplaySize.x - 20;
   const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, widest);
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
 
   list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
                      ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
@@ -43,9 +45,25 @@ void drawColorBar(const ImVec2& at, float width, ImDrawList& list, const ColorOf
   }
 }
 
+constexpr float kPanelAlpha = 0.82f;  // how much of the picture windows cover
 constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
+
+// Begins a window in the middle above `bottom`; the other function ends it and returns its top.
+void beginAbove(float bottom, const char* name) {
+  constexpr float kMargin = 10;
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, bottom - kMargin),
+                          ImGuiCond_Always, ImVec2(0.5f, 1));
+  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  ImGui::Begin(name, nullptr, kBare);
+}
+
+float endAbove() {
+  const float top = ImGui::GetWindowPos().y;
+  ImGui::End();
+  return top;
+}
 
 // Returns the place in the picture, each coordinate from 0 to 1; null: beside the picture.
 std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const ImageSize& window,
@@ -96,124 +114,127 @@ void drawInspection(const std::string& lines, double pointerX, double pointerY) 
             lines.c_str(), kMargin, kBrightWhite, kDarkShade);
 }
 
-void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate, bool raised) {
+float drawStatus(const ViewState& state, float bottom) {
   constexpr float kMargin = 10, kPadding = 4;
-  const float line = ImGui::GetFontSize() + 2 * kPadding;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  float y = window.y - kMargin - (raised ? 2 * line : line);
+  const TracedFrame& frame = state.shown;
+  const float line = ImGui::GetFontSize() + 2 * kPadding, right = ImGui::GetIO().DisplaySize.x;
 
   // Lines are aligned to the right and stacked upwards; draw() returns the left end of its line.
+  float top = bottom - kMargin;
   const auto draw = [&](const std::string& text) {
-    const ImVec2 at(window.x - kMargin - ImGui::CalcTextSize(text.c_str()).x, y + kPadding);
+    top -= line;
+    const ImVec2 at(right - kMargin - ImGui::CalcTextSize(text.c_str()).x, top + kPadding);
     drawLabel(at, text.c_str(), kPadding);
-    y -= line;
     return at.x;
   };
 
-  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
-  if (next) text = samplesText(*next);
-  if (rate > 0) text += formatted(", %.0f frames/s", rate);
-  draw(text);
-  if (!frame.debug) return;
+  draw(statusText(state));
+  if (!frame.debug) return top;
 
   // A debug view shows its name and its legend, and above them a bar of its colors.
-  text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
+  const std::string name = entryOf(kDebugViewNames, frame.request.view);
   const std::string legend = frame.debug->legend();
-  const float left = draw(legend.empty() ? text : text + ": " + legend);
-  if (legend.empty()) return;
-  drawColorBar(ImVec2(left, y + kPadding), window.x - kMargin - left,
-               *ImGui::GetForegroundDrawList(),
+  const float left = draw(legend.empty() ? name : name + ": " + legend);
+  if (legend.empty()) return top;
+
+  top -= line;
+  drawColorBar(ImVec2(left, top + kPadding), right - kMargin - left,
+               *ImGui::GetBackgroundDrawList(),
                [&](double share) { return colorAt(frame.request.view, share); });
+  return top;
 }
 
-void drawMessage(const std::string& message) {
+float drawMessage(const std::string& message, float bottom) {
   constexpr float kMargin = 10, kPadding = 6;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, window.x);
-  drawLabel(ImVec2((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y),
-            message.c_str(), kPadding, kBrightWhite, kDarkShade);
+  const float window = ImGui::GetIO().DisplaySize.x, widest = window - 2 * kMargin;
+  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, widest);
+  const float top = bottom - kMargin - kPadding - size.y;
+  drawLabel(ImVec2((window - size.x) / 2, top), message.c_str(), kPadding, kBrightWhite,
+            kDarkShade);
+  return top - kPadding;
 }
 
-bool drawError(const std::string& error) {
-  bool open = true;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
-
-  if (ImGui::Begin("error", nullptr, kBare)) {
-    ImGui::PushTextWrapPos(window.x * 0.9f);
-    ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
-    ImGui::PopTextWrapPos();
-    open = !ImGui::Button("dismiss");
-  }
-
-  ImGui::End();
-  return open;
+float drawError(const std::string& error, float bottom, std::vector<std::string>& said) {
+  beginAbove(bottom, "error");
+  ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x * 0.9f);
+  ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::Button("dismiss")) said.emplace_back("dismiss");
+  return endAbove();
 }
 
-std::optional<std::size_t> drawCameras(const std::vector<Camera>& cameras,
-                                       std::optional<std::size_t> current) {
+void drawCameras(const ViewState& state, std::vector<std::string>& said) {
   constexpr float kMargin = 10;
-  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
-  ImGui::SetNextWindowPos(ImVec2(right, kMargin), ImGuiCond_Always, ImVec2(1, 0));
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(window.x - kMargin, kMargin), ImGuiCond_Always, ImVec2(1, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, window.y - 2 * kMargin));
 
-  std::optional<std::size_t> chosen;
-  if (ImGui::Begin("cameras", nullptr, kBare)) {
-    ImGui::TextDisabled("cameras (L)");
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const std::string text = formatted("%zu  %s", i + 1, cameras[i].name.c_str());
-      if (ImGui::Selectable(text.c_str(), i == current)) chosen = i;
+  ImGui::Begin("cameras", nullptr, kBare);
+  ImGui::TextDisabled("cameras (L)");
+  const std::vector<Camera>& cameras = state.scene->scene.cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::string text = formatted("%zu  %s", i + 1, cameras[i].name.c_str());
+    if (ImGui::Selectable(text.c_str(), i == state.followed)) {
+      said.push_back(formatted("camera %zu", i));
     }
   }
   ImGui::End();
-  return chosen;
 }
 
-bool drawTimeline(Timeline& timeline) {
-  if (!timeline.there) return false;
-
-  const float fromBottom = 3.5f * ImGui::GetFontSize();  // messages are below
+void drawKeys(float bottom) {
+  constexpr float kMargin = 10;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - fromBottom), ImGuiCond_Always,
-                          ImVec2(0.5f, 1));
+  const float width = std::min(58 * ImGui::GetFontSize(), window.x - 2 * kMargin);
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, kMargin), ImGuiCond_Always, ImVec2(0.5f, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, bottom - 2 * kMargin));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
 
-  bool changed = false;
-  if (ImGui::Begin("timeline", nullptr, kBare)) {
-    const float line = ImGui::GetFontSize();
-    if (ImGui::Button(timeline.playing ? "pause" : "play", ImVec2(4 * line, 0))) {
-      timeline.playing = !timeline.playing;
-      changed = true;
-    }
-
-    // A time that is set by hand stops the clock.
-    ImGui::SameLine();
-    auto seconds = static_cast<float>(timeline.seconds);
-    ImGui::SetNextItemWidth(std::max(0.3f * window.x, 6 * line));
-
-    if (ImGui::SliderFloat("##time", &seconds, 0, static_cast<float>(timeline.length),
-                           formatted("%%.2f of %.2f s", timeline.length).c_str(),
-                           ImGuiSliderFlags_AlwaysClamp)) {
-      timeline.seconds = static_cast<double>(seconds);
-      timeline.playing = false;
-      changed = true;
-    }
-
-    if (!timeline.animations.empty()) {
-      ImGui::SameLine();
-      ImGui::SetNextItemWidth(9 * line);
-      if (ImGui::BeginCombo("##animation", timeline.animation.c_str())) {
-        for (const std::string& name : timeline.animations) {
-          if (!ImGui::Selectable(name.c_str(), name == timeline.animation)) continue;
-          timeline.animation = name;
-          timeline.another = changed = true;
-        }
-        ImGui::EndCombo();
+  ImGui::Begin("keys", nullptr, kBare & ~ImGuiWindowFlags_NoScrollbar);
+  if (ImGui::BeginTable("keys", 2)) {
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch, 2);
+    for (const Verb& verb : verbs()) {
+      if (verb.keys.empty()) continue;
+      for (const std::string_view text : {verb.keys, verb.help}) {
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", std::string(text).c_str());
       }
     }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+float drawTimeline(const Timeline& timeline, float bottom, std::vector<std::string>& said) {
+  if (!timeline.there) return bottom;
+
+  beginAbove(bottom, "timeline");
+  const float line = ImGui::GetFontSize();
+  if (ImGui::Button(timeline.playing ? "pause" : "play", ImVec2(4 * line, 0))) {
+    said.emplace_back("play");
   }
 
-  ImGui::End();
-  return changed;
+  ImGui::SameLine();
+  auto seconds = static_cast<float>(timeline.seconds);
+  ImGui::SetNextItemWidth(std::max(0.3f * ImGui::GetIO().DisplaySize.x, 6 * line));
+  if (ImGui::SliderFloat("##time", &seconds, 0, static_cast<float>(timeline.length),
+                         formatted("%%.2f of %.2f s", timeline.length).c_str(),
+                         ImGuiSliderFlags_AlwaysClamp)) {
+    said.push_back("time " + shortest(seconds));
+  }
+
+  if (!timeline.animations.empty()) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(9 * line);
+    if (ImGui::BeginCombo("##animation", timeline.animation.c_str())) {
+      for (const std::string& name : timeline.animations) {
+        const bool current = name == timeline.animation;
+        if (ImGui::Selectable(name.c_str(), current)) said.push_back("animation " + name);
+      }
+      ImGui::EndCombo();
+    }
+  }
+  return endAbove();
 }
 
 }  // namespace whit::view

@@ -4,21 +4,17 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "core/text.h"
 #include "output/frame_summary.h"
-#include "viewer/session/resolution_control.h"
 
 namespace whit::view {
 
 namespace {
 
-template <typename... Values>
-void drawCell(const char* format, Values... values) {
-  ImGui::TableNextColumn();
-  ImGui::Text(format, values...);
-}
+constexpr float kMargin = 10;                   // pixels
+constexpr float kWidth = 32, kLeastWidth = 22;  // heights of the font
+constexpr float kAlpha = 0.82f;                 // how much of the picture the panel covers
 
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
@@ -31,8 +27,9 @@ void drawStages(const FrameStats& stats) {
 
 void drawRays(const FrameStats& stats, EffectSet effects) {
   if (!ImGui::BeginTable("rays", 4)) return;
-  for (const char* heading : {"rays", "thousands", "Mray/s", "lanes %"}) {
-    ImGui::TableSetupColumn(heading);
+  ImGui::TableSetupColumn("rays", ImGuiTableColumnFlags_WidthStretch);
+  for (const char* heading : {"1000s", "Mray/s", "lanes %"}) {
+    ImGui::TableSetupColumn(heading, ImGuiTableColumnFlags_WidthFixed);
   }
   ImGui::TableHeadersRow();
 
@@ -40,175 +37,138 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
     if (!kRayKinds[i].calledForBy(effects)) continue;
 
     const RayTally& tally = stats.meter.tally[i];
-    drawCell("%s", kRayKinds[i].name.data());
-    drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
-    drawCell("%.2f", mraysPerSecond(tally.rays, stats.frameMs));
-    drawCell("%.1f", 100 * lanesFilled(tally));
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", kRayKinds[i].name.data());
+    for (const double number :
+         {static_cast<double>(tally.rays) / 1e3, mraysPerSecond(tally.rays, stats.frameMs),
+          100 * lanesFilled(tally)}) {
+      ImGui::TableNextColumn();
+      ImGui::Text("%.1f", number);
+    }
   }
   ImGui::EndTable();
 }
 
-// Draws a box for each effect, grayed where the scene does not call for it, and the reason.
-void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
-  for (int i = 0; i < kEffectCount; ++i) {
-    const auto effect = static_cast<Effect>(i);
-    const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
-    const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
+// Shows where the time of the frame went.
+void drawTime(const ViewState& state, std::vector<std::string>& said) {
+  const TracedFrame& frame = state.shown;
+  if (state.measures) {
+    ImGui::ProgressBar(static_cast<float>(frame.measured), ImVec2(-1, 0),
+                       formatted("measuring: %.0f %%", 100 * frame.measured).c_str());
+  } else if (ImGui::Button("measure what each option costs")) {
+    said.emplace_back("measure");
+  }
+  drawMeasured(state.costs);
 
-    bool on = reason.on && !disable.has(effect);
-    ImGui::BeginDisabled(!reason.on);
-    if (ImGui::Checkbox(name.c_str(), &on)) {
-      disable = on ? disable.without(effect) : disable.with(effect);
+  const Image& image = frame.film.image;
+  ImGui::TextWrapped("%s", aboutText(frame).c_str());
+  ImGui::TextWrapped("%d x %d, %d sample%s a pixel%s; %.2f ms traced, %.2f in Embree", image.width,
+                     image.height, frame.request.spp, frame.request.spp == 1 ? "" : "s",
+                     errorText(frame.sampleError).c_str(), frame.stats.frameMs,
+                     frame.stats.embreeMs());
+  drawStages(frame.stats);
+  drawRays(frame.stats, frame.effects);
+}
+
+void drawFiles(const std::vector<std::string>& recent, std::vector<std::string>& said) {
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##recent", "open a recent scene")) {
+    for (const std::string& name : recent) {
+      if (ImGui::Selectable(name.c_str())) said.push_back("open " + name);
     }
-    ImGui::EndDisabled();
+    ImGui::EndCombo();
+  }
+  if (ImGui::Button("save as a scene file")) said.emplace_back("save-scene");
+  ImGui::SameLine();
+  if (ImGui::Button("undo")) said.emplace_back("undo");
+}
 
-    drawCost(costs, name);
-    ImGui::SameLine();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", reason.because.c_str());
+// Draws the row of tabs.
+void drawTabs(std::string& chosen) {
+  for (const char* tab : kPanelTabs) {
+    if (tab != kPanelTabs.front()) ImGui::SameLine();
+    const bool isChosen = chosen == tab;
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(isChosen ? ImGuiCol_TabActive
+                                                                             : ImGuiCol_FrameBg));
+    if (ImGui::Button(tab)) chosen = tab;
     ImGui::PopStyleColor();
   }
-}
-
-// Draws the choice of debug view.
-void drawView(PanelSettings& settings) {
-  int view = static_cast<int>(settings.view);
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
-  if (ImGui::Combo("view (V)", &view, kDebugViewNames.data(),
-                   static_cast<int>(kDebugViewNames.size()))) {
-    settings.view = static_cast<DebugView>(view);
-  }
-}
-
-void drawKeys() {
-  if (!ImGui::BeginTable("keys", 2)) return;
-  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch);
-
-  for (const KeyHelp& help : keyHelp()) {
-    drawCell("%s", help.keys);
-    ImGui::TableNextColumn();
-    ImGui::TextWrapped("%s", help.text);
-  }
-  ImGui::EndTable();
-}
-
-void drawRecent(PanelSettings& settings) {
-  if (!ImGui::BeginCombo("##recent", "open a recent scene")) return;
-  for (const std::string& name : settings.recent) {
-    if (ImGui::Selectable(name.c_str())) settings.open = name;
-  }
-  ImGui::EndCombo();
-}
-
-void drawTimes(const TracedFrame& frame) {
-  const FrameStats& stats = frame.stats;
-  ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
-  const Image& image = frame.film.image;
-  ImGui::Text("%d x %d, %d sample%s a pixel%s", image.width, image.height, frame.request.spp,
-              frame.request.spp == 1 ? "" : "s", errorText(frame.sampleError).c_str());
-
-  ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
-              frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
-  ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
-}
-
-std::vector<std::string> drawTabs(const TracedFrame& frame, const RayPick& pick,
-                                  const std::vector<KnobCost>& costs, PanelSettings& settings,
-                                  const Sky& ownSky, EditedScene& scene) {
-  std::vector<std::string> edits;
-  const std::string chosen = std::exchange(settings.tab, std::string());
-  const auto tab = [&](const char* name, auto&& draw) {
-    const bool choose = chosen == name;
-    if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
-    settings.tabShown = name;
-
-    // The contents of a tab scroll below the row of tabs.
-    const float line = ImGui::GetFontSize(), top = ImGui::GetCursorScreenPos().y;
-    const float room = ImGui::GetIO().DisplaySize.y - top - 2 * line;
-    ImGui::BeginChild("tab", ImVec2(0, std::max(room, 4 * line)));
-    draw();
-    ImGui::EndChild();
-    ImGui::EndTabItem();
-  };
-
-  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return edits;
-
-  tab("frame", [&] {
-    drawStages(frame.stats);
-    drawRays(frame.stats, frame.effects);
-  });
-
-  tab("picture", [&] {
-    drawOptions(Tab::picture, settings.options, {});
-    drawView(settings);
-  });
-
-  tab("knobs", [&] {
-    if (settings.measureKnobs) {
-      ImGui::ProgressBar(static_cast<float>(frame.measured), ImVec2(-1, 0),
-                         formatted("measuring: %.0f %%", 100 * frame.measured).c_str());
-    } else if (ImGui::Button("measure what each costs")) {
-      settings.measureKnobs = true;
-    }
-
-    drawMeasured(costs);
-    drawOptions(Tab::knobs, settings.options, costs);
-  });
-
-  tab("effects", [&] { drawEffects(frame, costs, settings.options.disable); });
-  tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
-  tab("scene", [&] {
-    settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
-    edits = drawSceneTab(ownSky, settings.rays, scene);
-  });
-  tab("keys", [&] {
-    drawRecent(settings);
-    drawKeys();
-  });
-
-  ImGui::EndTabBar();
-  return edits;
+  ImGui::Separator();
 }
 
 }  // namespace
 
-std::vector<std::string> Panel::draw(const TracedFrame& frame, const RayPick& pick,
-                                     const std::vector<KnobCost>& costs, PanelSettings& settings,
-                                     const Sky& ownSky, EditedScene& scene) {
-  constexpr float kMargin = 10, kWidth = 32, kLeastWidth = 12;  // pixels; heights of the font
+// Moves the panel beside the point that was clicked, if it could cover that: to the wider side, or
+// in a narrow window above or below. Returns whether it moves.
+bool Panel::place(float bottom) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
-  const float widest = std::min(em * kWidth, window.x - 2 * kMargin);
+  const float em = ImGui::GetFontSize(), widest = std::min(em * kWidth, window.x - 2 * kMargin);
   if (width_ == 0) {
-    left_ = kMargin;
+    left_ = top_ = kMargin;
     width_ = widest;
   }
 
-  // The panel moves to the wider side of a pixel that it would cover, and shrinks to fit there.
-  const auto x = std::exchange(settings.keepClear, std::nullopt);
-  const bool covered = x && *x > left_ - kMargin && *x < left_ + width_ + kMargin;
-  if (covered) {
-    const bool rightwards = *x < window.x / 2;
-    const float room = (rightwards ? window.x - *x : *x) - 3 * kMargin;
-    width_ = std::clamp(room, std::min(em * kLeastWidth, widest), widest);
+  const float left = left_, top = top_;
+  const auto clear = std::exchange(clear_, std::nullopt);
+  if (clear && clear->x > left_ - kMargin && clear->x < left_ + width_ + kMargin) {
+    const bool rightwards = clear->x<window.x / 2, above = clear->y> window.y / 2;
+    const float room = (rightwards ? window.x - clear->x : clear->x) - 3 * kMargin;
+    const bool beside = room >= em * kLeastWidth;
+
+    width_ = beside ? std::min(room, widest) : widest;
     left_ = rightwards ? window.x - kMargin - width_ : kMargin;
+    top_ = beside || above ? kMargin : clear->y + 2 * kMargin;
+    lowest_ = beside || !above ? window.y : clear->y - kMargin;
   }
 
-  ImGui::SetNextWindowPos(ImVec2(left_, kMargin), covered ? ImGuiCond_Always : ImGuiCond_Appearing);
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height));
-  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  // It stays in the window, and ends above what is drawn at the bottom.
+  const float least = 4 * em;
+  width_ = std::min(width_, widest);
+  left_ = std::clamp(left_, 0.0f, std::max(window.x - width_, 0.0f));
+  top_ = std::clamp(top_, 0.0f, std::max(window.y - least, 0.0f));
+  height_ = std::max(std::min(bottom, lowest_) - kMargin - top_, least);
+  return left_ != left || top_ != top;
+}
 
-  std::vector<std::string> edits;
-  if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
-    drawTimes(frame);
-    edits = drawTabs(frame, pick, costs, settings, ownSky, scene);
+void Panel::drawTab(const ViewState& state, KeptSettings& kept, bool& lines,
+                    std::vector<std::string>& said, SceneChange& change) {
+  pointedAt_ = kNoCounterpart;
+  if (kept.tab == "rays") {
+    pointedAt_ = drawRayTree(state, lines, said);
+  } else if (kept.tab == "scene") {
+    drawFiles(kept.recent, said);
+    change.edited = state.edited;
+    change.settings = drawScene(state.ownSky, unfolds_, change.edited);
+  } else if (kept.tab == "time") {
+    drawTime(state, said);
+  } else {
+    drawOptions(state, said);
+  }
+}
+
+void Panel::draw(const ViewState& state, float bottom, KeptSettings& kept, bool& lines, bool& open,
+                 std::vector<std::string>& said, SceneChange& change) {
+  if (std::exchange(selections_, state.selections) != state.selections) unfolds_ = state.selected;
+  const bool moves = place(bottom);
+  ImGui::SetNextWindowPos(ImVec2(left_, top_), moves ? ImGuiCond_Always : ImGuiCond_Appearing);
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height_));
+  ImGui::SetNextWindowBgAlpha(kAlpha);
+  if (ImGui::Begin("whit", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
+    drawTabs(kept.tab);
+
+    // The tab is as high as its contents, and scrolls if the window is lower.
+    const float line = ImGui::GetFontSize();
+    const float room = top_ + height_ - ImGui::GetCursorScreenPos().y - line;
+    ImGui::BeginChild("tab", ImVec2(0, std::max(std::min(room, contents_), line)));
+    drawTab(state, kept, lines, said, change);
+    contents_ = ImGui::GetCursorPosY();
+    ImGui::EndChild();
   }
 
   // The user may have dragged the panel, so its place is read back.
   left_ = ImGui::GetWindowPos().x;
+  top_ = ImGui::GetWindowPos().y;
   ImGui::End();
-  return edits;
 }
 
 }  // namespace whit::view

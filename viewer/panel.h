@@ -1,9 +1,10 @@
-// All that is drawn over the picture: the panel with its tabs, rays, messages.
+// All that is drawn over the picture: the panel with its tabs, rays, messages. What the user asks
+// for there is appended to `said`, in lines of verbs.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,71 +12,77 @@
 
 namespace whit::view {
 
-inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
-                                       "rays",  "scene",   "keys"};
+inline constexpr std::array kPanelTabs{"picture", "rays", "scene", "time"};
 
-inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
+// How the user has changed the scene: the settings, and the scene with them.
+struct SceneChange {
+  std::vector<std::string> settings;
+  EditedScene edited;
+};
 
 class Panel {
  public:
-  // `frame` must hold a picture, and `ownSky` is the scene's. Returns the settings by which the
-  // user has edited the scene.
-  std::vector<std::string> draw(const TracedFrame& frame, const RayPick& pick,
-                                const std::vector<KnobCost>& costs, PanelSettings& settings,
-                                const Sky& ownSky, EditedScene& scene);
+  // The panel moves aside if it would cover this place of the window.
+  void keepClear(double x, double y) { clear_ = {static_cast<float>(x), static_cast<float>(y)}; }
+
+  // Draws the panel above `bottom`, with the tab kept.tab. `state` must hold a picture. `lines`
+  // says whether rays are drawn into the scene.
+  void draw(const ViewState& state, float bottom, KeptSettings& kept, bool& lines, bool& open,
+            std::vector<std::string>& said, SceneChange& change);
+  // Returns the ray that the pointer is on in the list, or kNoCounterpart.
+  std::size_t pointedAt() const { return pointedAt_; }
 
  private:
-  float left_ = 0, width_ = 0;  // of the panel in the last frame
+  bool place(float bottom);
+  void drawTab(const ViewState& state, KeptSettings& kept, bool& lines,
+               std::vector<std::string>& said, SceneChange& change);
+
+  struct Place {
+    float x = 0, y = 0;
+  };
+  std::optional<Place> clear_;
+  float left_ = 0, top_ = 0, width_ = 0, height_ = 0;  // height: at most
+  float lowest_ = 1e6f;  // the panel ends above that, because a point there was clicked
+  float contents_ = 0;   // height of the tab's contents in the last frame
+  std::size_t pointedAt_ = kNoCounterpart;
+  Selection unfolds_;  // what the scene's tab unfolds when it is drawn
+  int selections_ = 0;
 };
 
-// The functions below draw between ImGui's NewFrame and Render; those of knobs.cpp, drawSceneTab()
+// The functions below draw between ImGui's NewFrame and Render; those of controls.cpp, drawScene()
 // and drawRayTree() also between its Begin and End.
 
-// knobs.cpp: the options of a render as sliders, boxes and lists.
-// Draws the options that the table of options has in that tab, and presets before those of the
-// knobs.
-void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the cost of that knob or effect beside its control, if it exceeds the noise.
-void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
+// controls.cpp: presets, options, effects and the choice of view.
+void drawOptions(const ViewState& state, std::vector<std::string>& said);
 // Lists the costs that exceed the noise, the largest first.
 void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
 // picked; `ownSky` is the scene's. Returns the settings by which the user has edited the scene.
-std::vector<std::string> drawSceneTab(const Sky& ownSky, RayView& picked, EditedScene& scene);
+std::vector<std::string> drawScene(const Sky& ownSky, Selection& unfolds, EditedScene& scene);
 
-// ray_panel.cpp: the rays of a picked pixel, or how to pick one; and as lines behind the panels, as
-// this camera sees them.
-void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view);
-void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view);
+// ray_panel.cpp: the rays of a picked pixel, or how to pick one; returns the ray that is pointed
+// at. And as lines behind the panels, as this camera sees them.
+std::size_t drawRayTree(const ViewState& state, bool& lines, std::vector<std::string>& said);
+void drawRayLines(const RayPick& pick, const Camera& camera, std::size_t pointedAt);
 
-// overlay.cpp: all else that is drawn over the picture.
-// Draws a bar at the bottom of the window if the scene moves. Returns whether something was
-// changed.
-bool drawTimeline(Timeline& timeline);
-// Draws the list of the scene's cameras, of which `current` is shown. Returns the number of the one
-// that was chosen.
-std::optional<std::size_t> drawCameras(const std::vector<Camera>& cameras,
-                                       std::optional<std::size_t> current);
+// overlay.cpp: all else that is drawn over the picture. These three draw above `bottom` and return
+// the top of what they drew.
+// A bar to play and to choose the time, if the scene moves.
+float drawTimeline(const Timeline& timeline, float bottom, std::vector<std::string>& said);
+float drawMessage(const std::string& message, float bottom);
+float drawError(const std::string& error, float bottom, std::vector<std::string>& said);
+// The sharpness of the picture, the frame rate and the meaning of a view's colors, at the right.
+float drawStatus(const ViewState& state, float bottom);
+// The list of the scene's cameras.
+void drawCameras(const ViewState& state, std::vector<std::string>& said);
+// The list of keys.
+void drawKeys(float bottom);
 // Describes that pixel of a debug view in a window of this size, in lines with units. Empty beside
 // the picture, and for others.
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel);
 // Draws such lines beside the pointer, inside the window.
 void drawInspection(const std::string& lines, double pointerX, double pointerY);
-// Draws the sharpness of the picture, the frame rate and the meaning of a view's colors into a
-// corner of the window; `raised`: a line higher, above a message.
-void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate, bool raised);
-// Draws a line at the bottom of the window.
-void drawMessage(const std::string& message);
-// Draws an error, which stays until it is clicked away; returns false then.
-bool drawError(const std::string& error);
-
-// app_keys.cpp: the keys, and what they do.
-struct KeyHelp {
-  const char* keys;
-  const char* text;
-};
-std::span<const KeyHelp> keyHelp();
 
 }  // namespace whit::view

@@ -69,7 +69,9 @@ void showManual(const cli::OptionList& list) {
     std::puts(".PP");
     std::fputs(cli::manOptions(kUsage, kSummary, list).c_str(), stdout);
     cli::Terms keys;
-    for (const KeyHelp& key : keyHelp()) keys.emplace_back(key.keys, key.text);
+    for (const Verb& verb : verbs()) {
+      if (!verb.keys.empty()) keys.emplace_back(verb.keys, verb.help);
+    }
     std::fputs(cli::manSection("keys", keys).c_str(), stdout);
   });
 }
@@ -130,7 +132,8 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     if (window.closing()) std::quick_exit(0);  // nothing has been written
     window.begin();
-    drawMessage("reading " + options.scene + progress.text());
+    drawMessage("reading " + options.scene + progress.text(),
+                static_cast<float>(window.size().height));
     window.end();
     window.present();
 

@@ -50,19 +50,21 @@ void drawLegend(const std::vector<RayLine>& lines) {
 
 class RayTreeTab {
  public:
-  RayTreeTab(const RayPick& pick, const TracedFrame& frame, RayView& view)
-      : pick_(pick), tree_(pick.rays.packets), options_(frame.request.options), view_(view) {}
+  RayTreeTab(const RayPick& pick, const RenderOptions& options)
+      : pick_(pick), tree_(pick.rays.packets), options_(options) {}
 
-  void draw() {
+  // Returns the ray that the pointer is on.
+  std::size_t draw(bool& lines, std::vector<std::string>& said) {
     drawPixel();
-    drawButtons();
-    if (view_.lines) drawLegend(pick_.lines);
-    view_.pointedAt = kNoCounterpart;
-    const float height = std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetFontSize());
+    if (ImGui::Button("look from aside")) said.emplace_back("aside");
+    ImGui::SameLine();
+    ImGui::Checkbox("lines", &lines);
+    ImGui::SameLine();
+    if (ImGui::Button("forget")) said.emplace_back("forget");
 
-    ImGui::BeginChild("tree", ImVec2(0, height), false, ImGuiWindowFlags_HorizontalScrollbar);
+    if (lines) drawLegend(pick_.lines);
     for (const std::size_t primary : tree_.primaries) drawNode(primary);
-    ImGui::EndChild();
+    return pointedAt_;
   }
 
  private:
@@ -72,8 +74,8 @@ class RayTreeTab {
 
     const auto draw = [&](const char* name, const Rgb& pixel) {
       const auto codes = codesOf(pixel, options_);
-      ImGui::Text("%-10s%s  codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0], codes[1],
-                  codes[2]);
+      ImGui::TextWrapped("%s %s, codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0],
+                         codes[1], codes[2]);
     };
 
     // Both renderers trace the pixel, so that a difference between them shows.
@@ -82,16 +84,8 @@ class RayTreeTab {
     ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), tree_.shadowRays());
   }
 
-  void drawButtons() {
-    if (ImGui::Button("look from aside")) view_.fromAside = true;
-    ImGui::SameLine();
-    ImGui::Checkbox("lines (T)", &view_.lines);
-    ImGui::SameLine();
-    if (ImGui::Button("forget")) view_.forget = true;
-  }
-
   void point(std::size_t node) {
-    if (ImGui::IsItemHovered()) view_.pointedAt = node;
+    if (ImGui::IsItemHovered()) pointedAt_ = node;
   }
 
   void drawNode(std::size_t number) {
@@ -105,13 +99,13 @@ class RayTreeTab {
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
 
-    const std::string text =
-        formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].hit.c_str(),
-                  codesAddedBy(tree_, number, options_));
-    const bool open =
-        ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
-    ImGui::PopStyleColor();
+    // The text wraps, which that of a node does not.
+    const bool open = ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", "");
     point(number);
+    ImGui::SameLine();
+    ImGui::TextWrapped("%s: %s, %d codes", rowOf(n.kind).name.data(),
+                       pick_.words[number].hit.c_str(), codesAddedBy(tree_, number, options_));
+    ImGui::PopStyleColor();
 
     if (open) {
       drawOwn(number);
@@ -123,20 +117,20 @@ class RayTreeTab {
 
   void drawOwn(std::size_t number) {
     const RayText& words = pick_.words[number];
-    ImGui::BulletText("weight %s, in %s", textOf(tree_.nodes[number].weight).c_str(),
-                      words.medium.c_str());
-    point(number);
-
-    for (const std::string& line : words.lines) {
-      ImGui::BulletText("%s", line.c_str());
+    const auto draw = [&](const std::string& line) {
+      ImGui::Bullet();
+      ImGui::TextWrapped("%s", line.c_str());
       point(number);
-    }
+    };
+
+    draw("weight " + textOf(tree_.nodes[number].weight) + ", in " + words.medium);
+    for (const std::string& line : words.lines) draw(line);
   }
 
   const RayPick& pick_;
   const RayTree& tree_;
   const RenderOptions& options_;
-  RayView& view_;
+  std::size_t pointedAt_ = kNoCounterpart;
 };
 
 void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width) {
@@ -157,19 +151,18 @@ void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width)
 
 }  // namespace
 
-void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view) {
-  if (!pick.scene) {
+std::size_t drawRayTree(const ViewState& state, bool& lines, std::vector<std::string>& said) {
+  if (!state.rays.scene) {
     ImGui::TextWrapped(
-        "Click on the picture: the rays of that pixel are listed here and drawn "
-        "into the scene.");
-    return;
+        "Click on the picture: the rays of that pixel are listed here and drawn into the scene.");
+    return kNoCounterpart;
   }
-  RayTreeTab(pick, frame, view).draw();
+  return RayTreeTab(state.rays, state.shown.request.options).draw(lines, said);
 }
 
-void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view) {
+void drawRayLines(const RayPick& pick, const Camera& camera, std::size_t pointedAt) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  if (!pick.scene || !view.lines || window.x < 1 || window.y < 1) return;
+  if (!pick.scene || window.x < 1 || window.y < 1) return;
 
   const LineView seen(camera, static_cast<int>(window.x), static_cast<int>(window.y));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -192,7 +185,7 @@ void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view
     list.AddLine(from, to, color, width);
     list.AddCircleFilled(to, width + 1, color);
   };
-  for (const RayLine& line : pick.lines) draw(line, line.node == view.pointedAt ? 3 : 0);
+  for (const RayLine& line : pick.lines) draw(line, line.node == pointedAt ? 3 : 0);
 }
 
 }  // namespace whit::view

@@ -63,8 +63,7 @@ bool drawMember(const Member<Noun, Value>& member, Value& value) {
   } else if (member.rules.high <= 1) {
     return drawColor(member.name, value);
   } else {
-    return drawBright(member.name, (std::string(member.name) + ", largest channel").c_str(), high,
-                      value);
+    return drawBright(member.name, (std::string("times##") + member.name).c_str(), high, value);
   }
 }
 
@@ -91,8 +90,6 @@ bool drawLight(Light& light) {
 template <typename Item, typename Draw>
 void drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected, const Draw& draw,
                const Vec3d& origin, std::vector<std::string>& settings) {
-  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
-
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string number = std::string(kind) + " " + std::to_string(i + 1);
     const std::string name = items[i].name.empty() ? number : items[i].name;
@@ -114,7 +111,6 @@ void drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
     ImGui::PopID();
   }
 
-  ImGui::PopItemWidth();
   if (items.empty()) ImGui::TextDisabled("none");
 }
 
@@ -168,7 +164,7 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
   if (ambient.ofSky > 0) {
     constexpr float kLeast = 0.01f, kMost = 10;
     auto share = static_cast<float>(ambient.ofSky);
-    if (!ImGui::SliderFloat("times the sky's mean", &share, kLeast, kMost, "%.2f", kLogarithmic)) {
+    if (!ImGui::SliderFloat("of the sky's mean", &share, kLeast, kMost, "%.2f", kLogarithmic)) {
       return changed;
     }
 
@@ -177,28 +173,28 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
   }
 
   // Otherwise it is a radiance from above and another one from below.
-  changed |= drawBright("ambient, from above", "radiance, from above", kLargestAmbient, ambient.up);
-  changed |=
-      drawBright("ambient, from below", "radiance, from below", kLargestAmbient, ambient.down);
+  changed |= drawBright("ambient, above", "times##above", kLargestAmbient, ambient.up);
+  changed |= drawBright("ambient, below", "times##below", kLargestAmbient, ambient.down);
   return changed;
 }
 
 }  // namespace
 
-std::vector<std::string> drawSceneTab(const Sky& ownSky, RayView& picked, EditedScene& scene) {
+std::vector<std::string> drawScene(const Sky& ownSky, Selection& unfolds, EditedScene& scene) {
   std::vector<std::string> settings;
   const Vec3d& origin = scene.origin;
+  ImGui::PushItemWidth(-20 * ImGui::CalcTextSize("0").x);  // names stand behind their widgets
+
   ImGui::TextDisabled("lights");
   if (origin != Vec3d()) {
-    ImGui::TextDisabled("positions are from %.17g,%.17g,%.17g", origin.x, origin.y, origin.z);
+    ImGui::TextWrapped("positions are from %.17g,%.17g,%.17g", origin.x, origin.y, origin.z);
   }
-  drawItems(scene.lights, "light", picked.light, drawLight, origin, settings);
+  drawItems(scene.lights, "light", unfolds.light, drawLight, origin, settings);
 
   ImGui::TextDisabled("materials");
-  drawItems(scene.materials, "material", picked.material, drawMembers<Material>, origin, settings);
+  drawItems(scene.materials, "material", unfolds.material, drawMembers<Material>, origin, settings);
 
   ImGui::TextDisabled("surroundings");
-  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
   if (drawSky(ownSky, scene.sky)) stateSky(scene, settings);
   if (drawAmbient(!isNoSky(scene.sky), scene.ambient)) stateAmbient(scene, settings);
   ImGui::PopItemWidth();

@@ -38,8 +38,8 @@ shot() {
 
 sharp=("wait 30 frames" "wait sharp")
 gone=("wait 250 frames" "wait sharp")  # messages
-shot viewer atrium 800x450 "asked" "panel frame" "key W 0.2" "${sharp[@]}" "${gone[@]}"
-shot viewer-knobs matte 960x600 "asked" "panel knobs" "${sharp[@]}" "click 100 143" "${sharp[@]}" \
+shot viewer atrium 800x450 "asked" "panel time" "key W 0.2" "${sharp[@]}" "${gone[@]}"
+shot viewer-knobs matte 960x600 "asked" "panel time" "${sharp[@]}" "click 100 76" "${sharp[@]}" \
   "${gone[@]}"
 shot viewer-tree "whitted --depth 7" 960x600 "asked" "${sharp[@]}" "click 480 333" "${sharp[@]}" \
   "mouse left 200 -60" "${sharp[@]}" "${gone[@]}"

@@ -31,6 +31,31 @@ Window& windowOf(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
+constexpr std::pair<const char*, int> kNamedKeys[] = {{"Left", GLFW_KEY_LEFT},
+                                                      {"Right", GLFW_KEY_RIGHT},
+                                                      {"Up", GLFW_KEY_UP},
+                                                      {"Down", GLFW_KEY_DOWN},
+                                                      {"Space", GLFW_KEY_SPACE},
+                                                      {"Shift", GLFW_KEY_LEFT_SHIFT},
+                                                      {"Shift", GLFW_KEY_RIGHT_SHIFT},
+                                                      {"Esc", GLFW_KEY_ESCAPE},
+                                                      {"Home", GLFW_KEY_HOME},
+                                                      {"[", GLFW_KEY_LEFT_BRACKET},
+                                                      {"]", GLFW_KEY_RIGHT_BRACKET},
+                                                      {"F11", GLFW_KEY_F11},
+                                                      {"F12", GLFW_KEY_F12}};
+
+// Returns the name of a key; empty if the viewer does not know it.
+std::string nameOfKey(int key) {
+  for (const auto& [name, code] : kNamedKeys) {
+    if (code == key) return name;
+  }
+  // GLFW's codes of letters and digits are their ASCII codes.
+  const bool isLetter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+  const bool isDigit = key >= GLFW_KEY_0 && key <= GLFW_KEY_9;
+  return isLetter || isDigit ? std::string(1, static_cast<char>(key)) : "";
+}
+
 // Fonts of Debian, Fedora, Arch and macOS; the first that exists is used.
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
                             "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
@@ -78,6 +103,14 @@ std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& wi
   const double across = static_cast<double>(window.width) / madeFor.width;
   const double down = static_cast<double>(window.height) / madeFor.height;
   return {std::min(1.0, down / across), std::min(1.0, across / down)};
+}
+
+std::vector<std::string> keyNames() {
+  std::vector<std::string> names;
+  for (int key = GLFW_KEY_SPACE; key <= GLFW_KEY_LAST; ++key) {
+    if (std::string name = nameOfKey(key); !name.empty()) names.push_back(std::move(name));
+  }
+  return names;
 }
 
 Display::Display() {
@@ -298,16 +331,14 @@ void Window::present() { glfwSwapBuffers(window_); }
 void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   Input& input = windowOf(window).input;
   input.happened = true;
+  const std::string name = nameOfKey(key);
   if (action == GLFW_RELEASE) {
-    input.held.erase(key);
+    input.held.erase(name);
   } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
-    if ((mods & GLFW_MOD_CONTROL) != 0) {
-      input.commands.push_back(key);
-      return;
-    }
-
-    input.held.insert(key);
-    input.pressed.push_back(key);
+    // A key with Ctrl is a command, and is not held.
+    const bool commands = (mods & GLFW_MOD_CONTROL) != 0;
+    input.pressed.push_back(commands ? "Ctrl+" + name : name);
+    if (!commands) input.held.insert(name);
   }
 }
 

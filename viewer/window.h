@@ -17,9 +17,8 @@ namespace whit::view {
 
 // The input by keys and mouse since the last frame. The window or a script fills it.
 struct Input : Drags {
-  std::set<int> held;                // keys that are down, by their GLFW codes
-  std::vector<int> pressed;          // keys that went down since the last frame
-  std::vector<int> commands;         // keys that went down with Ctrl; `pressed` lacks them
+  std::set<std::string> held;        // names of keys that are down
+  std::vector<std::string> pressed;  // keys that went down since the last frame: "W", "Ctrl+S"
   bool happened = false;             // there was an event, on the panel or beside it
   std::vector<std::string> dropped;  // files
   // A script's pointer in pixels of the window; ImGui sees a person's pointer by itself.
@@ -34,11 +33,10 @@ struct Input : Drags {
     double x = 0, y = 0;
   };
 
-  bool isHeld(int key) const { return held.count(key) != 0; }
+  bool isHeld(const std::string& key) const { return held.contains(key); }
   // Forgets all events, but not the keys that are held.
   void endFrame() {
     pressed.clear();
-    commands.clear();
     dropped.clear();
     static_cast<Drags&>(*this) = Drags();
     happened = false;
@@ -48,6 +46,9 @@ struct Input : Drags {
 // Returns the shares of a window's width and height that are filled by a picture that was made for
 // a window of another size and keeps its shape.
 std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& window);
+
+// The names of all keys that the viewer knows.
+std::vector<std::string> keyNames();
 
 // Starts GLFW. Throws Error(usage) when there is no display.
 class Display {

@@ -110,6 +110,12 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
     return;
   }
 
+  // The scene's warnings are those of its present state, so each kind is noted once.
+  const auto known = opened_->warnings.entries();
+  for (const auto& [kind, entry] : warnings.entries()) {
+    if (!known.contains(kind)) opened_->warnings.note(kind, entry.first, entry.count);
+  }
+
   document_ = std::move(document);
   opened_->load.settings = load.settings;
   opened_->load.sky = load.sky;

@@ -20,7 +20,7 @@
 #include "io/load_scene.h"
 #include "io/obj/mtl_reader.h"
 #ifdef WHIT_SERVE
-#include "viewer/serve/messages.h"
+#include "viewer/session/verbs.h"
 #endif
 
 namespace whit::fuzz {
@@ -216,11 +216,11 @@ void readInput(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytesOfFile(file);
 
   try {
-    for (const serve::Message& m :
-         serve::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
-      const serve::Verb& verb = *std::ranges::find(serve::kVerbs, m.verb, &serve::Verb::name);
-      for (std::size_t i = 0; i < verb.numbers; ++i) {
-        if (!(m.numbers[i] >= verb.low && m.numbers[i] <= verb.high)) {
+    for (const view::Message& m :
+         view::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
+      const view::Numbers& numbers = m.verb->numbers;
+      for (std::size_t i = 0; i < numbers.count; ++i) {
+        if (!(m.numbers[i] >= numbers.low && m.numbers[i] <= numbers.high)) {
           throw std::logic_error("a number out of range");
         }
       }

@@ -1,25 +1,25 @@
 // The lines that the page sends: which are read, and which are refused.
-#include "viewer/serve/messages.h"
+#include "viewer/session/verbs.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 
-namespace whit::serve {
+namespace whit::view {
 namespace {
 
 TEST(Messages, AreRead) {
   const auto messages = readMessages("left 3 -4.5\nset depth 2\nanimation walk and run\nfit");
   ASSERT_EQ(messages.size(), 4u);
-  EXPECT_EQ(messages[0].verb, "left");
+  EXPECT_EQ(messages[0].verb->name, "left");
   EXPECT_EQ(messages[0].numbers[0], 3);
   EXPECT_EQ(messages[0].numbers[1], -4.5);
 
-  EXPECT_EQ(messages[1].verb, "set");
+  EXPECT_EQ(messages[1].verb->name, "set");
   EXPECT_EQ(messages[1].name, "depth");
   EXPECT_EQ(messages[1].text, "2");
   EXPECT_EQ(messages[2].text, "walk and run");
-  EXPECT_EQ(messages[3].verb, "fit");
+  EXPECT_EQ(messages[3].verb->name, "fit");
   EXPECT_TRUE(readMessages("").empty());
 }
 
@@ -45,4 +45,4 @@ TEST(Messages, WhatIsNotOneIsRefusedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace whit::serve
+}  // namespace whit::view

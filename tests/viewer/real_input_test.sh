@@ -104,7 +104,7 @@ hold eye "$from mousedown 1 sleep 0.2 mousemove_relative -- 40 15" "mouseup 1"
 hold eye "$from mousedown 3 sleep 0.2 mousemove_relative -- 0 60" "mouseup 3"
 
 # A key counts while the panel has the mouse, and right after.
-xdotool key h
+xdotool key p
 xdotool mousemove --window "$window" 60 20 mousedown 1 sleep 0.2 key c sleep 0.2 mouseup 1
 prints=$((prints + 1))
 within printed $prints

@@ -1,11 +1,7 @@
-#define GLFW_INCLUDE_NONE
 #include "script.h"
-
-#include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -23,32 +19,11 @@ using Words = std::vector<std::string>;
 
 constexpr double kLargestNumber = 1e6;
 
-constexpr std::pair<const char*, int> kNamed[] = {
-    {"Left", GLFW_KEY_LEFT},     {"Right", GLFW_KEY_RIGHT},    {"Up", GLFW_KEY_UP},
-    {"Down", GLFW_KEY_DOWN},     {"Space", GLFW_KEY_SPACE},    {"Shift", GLFW_KEY_LEFT_SHIFT},
-    {"Escape", GLFW_KEY_ESCAPE}, {"Home", GLFW_KEY_HOME},      {"+", GLFW_KEY_KP_ADD},
-    {"-", GLFW_KEY_MINUS},       {"[", GLFW_KEY_LEFT_BRACKET}, {"]", GLFW_KEY_RIGHT_BRACKET}};
-
 [[noreturn]] void expected(const std::string& what) { throwUsage("expected " + what); }
 
-// Returns the GLFW code of "W", "7", "F12", "Left", "Shift", "Space", "+", "["...
-int keyNamed(const std::string& name) {
-  std::vector<std::string> known;
-  for (const auto& [text, code] : kNamed) {
-    if (name == text) return code;
-    known.emplace_back(text);
-  }
-
-  // GLFW's codes of letters and digits are their ASCII codes.
-  if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0]))) {
-    return std::toupper(static_cast<unsigned char>(name[0]));
-  }
-
-  for (int i = 1; i <= 12; ++i) {
-    if (name == "F" + std::to_string(i)) return GLFW_KEY_F1 + i - 1;
-    known.push_back("F" + std::to_string(i));
-  }
-
+std::string keyNamed(const std::string& name) {
+  const std::vector<std::string> known = keyNames();
+  if (std::ranges::find(known, name) != known.end()) return name;
   throwUsage("there is no key '" + name + "'" + didYouMean(name, known));
 }
 
@@ -72,9 +47,8 @@ ScriptCommand keyCommand(const Words& words) {
   constexpr std::string_view kControl = "Ctrl+";
   // A key with Ctrl is a command, and is not held.
   if (words.size() == 2 && words[1].starts_with(kControl)) {
-    return {[key = keyNamed(words[1].substr(kControl.size()))](int, Input& input, ScriptStep&) {
-      input.commands.push_back(key);
-    }};
+    keyNamed(words[1].substr(kControl.size()));
+    return {[key = words[1]](int, Input& input, ScriptStep&) { input.pressed.push_back(key); }};
   }
 
   const auto hold = [key = keyNamed(words[1])](int frame, Input& input, ScriptStep&) {

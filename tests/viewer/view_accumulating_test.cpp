@@ -116,12 +116,13 @@ TEST_F(Accumulating, OnlyWhereRaysAreSampled) {
 }
 
 TEST(AccumulatingWords, SaySamplesAndError) {
-  UnfinishedFrame sight;
+  ViewState state;
+  UnfinishedFrame& sight = state.unfinished.emplace();
   sight.request.spp = 256;
   sight.samples = 100;
-  EXPECT_EQ(samplesText(sight), "100 of 256 samples");
+  EXPECT_EQ(statusText(state), "100 of 256 samples");
   sight.sampleError = 0.0123;
-  EXPECT_EQ(samplesText(sight), "100 of 256 samples, within about 1.2 %");
+  EXPECT_EQ(statusText(state), "100 of 256 samples, within about 1.2 %");
 }
 
 // The picture in the window is what the printed command renders, with many samples.

@@ -160,6 +160,26 @@ void expectEditsInPlace(const std::string& name) {
 
 TEST(EditSettings, OfASceneFile) { expectEditsInPlace("glass"); }
 
+// The image of a sky that is chosen has a negative value, which the reader repairs.
+TEST(EditSettings, WarnAsTheReaderDoes) {
+  const cli::TemporaryFolder folder;
+  Image sky(4, 2);
+  sky.pixels[3] = {-1, 0, 0};
+  writeExr(folder / "sky.exr", sky, {});
+  std::ofstream(folder / "s.json") << R"({"whit": 1, "scene": [{"shape": "sphere"}]})";
+  Engine engine(openWith(folder / "s.json"));
+  const OpenScene* const before = engine.opened().get();
+  ASSERT_TRUE(before->warnings.entries().empty());
+
+  for (const char* scale : {"2", "3"}) {
+    engine.edit(std::string(R"(/sky={"image": "sky.exr", "scale": )") + scale + "}");
+    EXPECT_EQ(engine.opened().get(), before) << "it was read again";
+    const auto warnings = before->warnings.entries();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings.begin()->second.count, 1u) << "each kind is noted once";
+  }
+}
+
 TEST(EditSettings, OfItemsWithoutAMaterial) {
   const cli::TemporaryFolder folder;
   std::ofstream(folder / "s.json")

@@ -45,13 +45,11 @@ TEST_F(RayPicking, WhatWasMetIsSelected) {
   const auto selected = [&](int x, int y) {
     thread.query(queryFor(request_, x, y));
     EXPECT_TRUE(waitFor(thread));
-    RayView view;
-    select(thread.takePick().value(), view);
-    return view;
+    return select(thread.takePick().value());
   };
 
   // The ball and the lamp that lights it are selected, and the sky selects nothing.
-  const RayView sphere = selected(24, 14), nothing = selected(0, 0);
+  const Selection sphere = selected(24, 14), nothing = selected(0, 0);
   ASSERT_LT(sphere.material, scene_->scene.materials.size());
   EXPECT_EQ(scene_->scene.materials[sphere.material].name, "mirror");
   EXPECT_EQ(sphere.light, 0u);
@@ -134,12 +132,12 @@ TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
 
 TEST_F(Viewer, AClickTurnsThePanelToTheRays) {
   play(
-      "asked\nwait sharp\npanel keys\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
+      "asked\nwait sharp\npanel time\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
       "wait 250 frames\nscreenshot rays.png\n",
       {"--size", "800x480"});
-  play("asked\nwait sharp\npanel keys\nwait 2 frames\nwait 250 frames\nscreenshot keys.png\n",
+  play("asked\nwait sharp\npanel time\nwait 2 frames\nwait 250 frames\nscreenshot time.png\n",
        {"--size", "800x480"});
-  EXPECT_NE(codes("rays.png").codes, codes("keys.png").codes);
+  EXPECT_NE(codes("rays.png").codes, codes("time.png").codes);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class SavedScenes : public Viewer {
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const cli::Outcome outcome = play(
       "asked\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 182\nwait 5 frames\nclick 100 251\nbare\nwait 20 frames\nwait sharp\n"
+      "click 30 139\nwait 5 frames\nclick 100 208\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
 
@@ -218,7 +218,7 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
   const cli::Outcome outcome = play(
       "drop sky.exr\nasked\npanel scene\nwait 30 frames\nwait sharp\n"
-      "click 93 299 120 299\nclick 60 323 150 323\nclick 30 347\nwait 5 frames\n"
+      "click 93 256 120 256\nclick 60 280 150 280\nclick 30 304\nwait 5 frames\n"
       "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
       "key Ctrl+S\n",
       {"--size", "800x560"});

@@ -137,7 +137,7 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
 TEST_F(Viewer, TheTimeBarPauses) {
   writeMovingScene(folder_);
   const cli::Outcome outcome =
-      play("asked\nwait 30 frames\nclick 135 236\nwait sharp\nkey C\n", {"--size", "400x300"});
+      play("asked\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n", {"--size", "400x300"});
   EXPECT_NE(outcome.out.find(" --time "), std::string::npos) << outcome.out;
 }
 

@@ -125,7 +125,7 @@ bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1
 TEST_F(Viewer, StartsWithThePictureAndOneLine) {
   play(
       "wait sharp\nwait 300 frames\nscreenshot start.png\nkey Shift\nwait 2 frames\n"
-      "screenshot picture.png\nkey H\nwait 4 frames\nscreenshot panel.png\nbare\n"
+      "screenshot picture.png\nkey P\nwait 4 frames\nscreenshot panel.png\nbare\n"
       "wait 2 frames\nscreenshot bare.png\n",
       {"--size", "500x300"});
 
@@ -138,7 +138,7 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
 
 // The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
-  const cli::Outcome first = play("wait sharp\nkey C\nkey H\nwait 2 frames\n", {"--size", "scene"});
+  const cli::Outcome first = play("wait sharp\nkey C\nkey P\nwait 2 frames\n", {"--size", "scene"});
   EXPECT_NE(first.out.find(" --size=533x355"), std::string::npos) << first.out;
 
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
@@ -173,7 +173,8 @@ TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
   EXPECT_NE(outcome.out.find("/tiny.json -o tiny.png"), std::string::npos) << outcome.out;
 }
 
-// A pixel is clicked on at the left, then one at the right: the panel is on the other side.
+// A pixel is clicked on at the left: the panel is at its right. Another one is in the middle, where
+// neither side has room: the panel is above.
 TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
   play(
       "bare\nasked\nwait sharp\nscreenshot bare.png\nclick 60 100\nwait 2 frames\nkey T\n"
@@ -184,8 +185,8 @@ TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
   const RawImage bare = codes("bare.png");
   EXPECT_TRUE(sameIn(codes("left.png"), bare, 0, 0, 70, 300));
   EXPECT_FALSE(sameIn(codes("left.png"), bare, 100, 0, 500, 300));
-  EXPECT_TRUE(sameIn(codes("middle.png"), bare, 230, 0, 250, 300));
-  EXPECT_FALSE(sameIn(codes("middle.png"), bare, 0, 0, 500, 300));
+  EXPECT_TRUE(sameIn(codes("middle.png"), bare, 0, 150, 500, 300));
+  EXPECT_FALSE(sameIn(codes("middle.png"), bare, 0, 0, 500, 150));
 }
 
 // No drag loses a model; F fits it.
@@ -233,17 +234,22 @@ TEST_F(Viewer, TheSavedPictureHasAllPixelsAndSamples) {
   expectSameCodes("tiny-0001.png", "again.png");
 }
 
-// Escape closes the list of cameras, then the panel, and then the viewer.
+// The list of cameras and the keys take the place of the panel. Escape closes what is open, and
+// then the viewer.
 TEST_F(Viewer, EscapeClosesWhatIsOpen) {
   play(
-      "asked\nwait 300 frames\nwait sharp\nkey Shift\nwait 3 frames\nscreenshot first.png\n"
-      "key H\nkey L\nwait 5 frames\nscreenshot open.png\nkey Escape\nwait 3 frames\n"
-      "screenshot panel.png\nkey Escape\nwait 3 frames\nscreenshot closed.png\n"
-      "key Escape\nwait 3 frames\nscreenshot never.png\n",
+      "asked\nwait 300 frames\nwait sharp\nkey Shift\nwait 5 frames\nscreenshot first.png\n"
+      "key P\nwait 5 frames\nscreenshot panel.png\nkey L\nwait 5 frames\nscreenshot list.png\n"
+      "key H\nwait 5 frames\nscreenshot keys.png\nkey Esc\nwait 5 frames\n"
+      "screenshot closed.png\nkey Esc\nwait 3 frames\nscreenshot never.png\n",
       {"--size", "500x300"});
   expectSameCodes("closed.png", "first.png");
-  EXPECT_NE(codes("open.png").codes, codes("panel.png").codes);
-  EXPECT_NE(codes("panel.png").codes, codes("closed.png").codes);
+  const std::array<std::vector<std::uint8_t>, 4> shown{
+      codes("panel.png").codes, codes("list.png").codes, codes("keys.png").codes,
+      codes("closed.png").codes};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(shown[i], shown[k]) << i << ' ' << k;
+  }
   EXPECT_FALSE(fs::exists(folder_ / "never.png"));
 }
 
@@ -257,8 +263,8 @@ TEST_F(Viewer, CamerasAreChosenFromTheirList) {
 
 // The first edit is of the lamp, the second one of its position.
 constexpr char kTwoEdits[] =
-    "asked\npanel scene\nwait 10 frames\nclick 30 182\nwait 5 frames\nclick 100 251\n"
-    "wait 60 frames\nclick 60 203 130 203\nwait 60 frames\nwait sharp\nkey C\n";
+    "asked\npanel scene\nwait 10 frames\nclick 30 139\nwait 5 frames\nclick 100 208\n"
+    "wait 60 frames\nclick 60 160 130 160\nwait 60 frames\nwait sharp\nkey C\n";
 
 TEST_F(Viewer, EditsAreUndoneOneByOne) {
   const cli::Outcome outcome =
@@ -278,8 +284,8 @@ TEST_F(Viewer, EditsAreUndoneOneByOne) {
 }
 
 TEST_F(Viewer, AsksBeforeEditsAreLost) {
-  const std::string escapes = "key Escape\nwait 3 frames\nkey Escape\nwait 3 frames\n";
-  play(kTwoEdits + escapes + "screenshot asked.png\nkey Escape\nwait 3 frames\nscreenshot no.png\n",
+  const std::string escapes = "key Esc\nwait 3 frames\nkey Esc\nwait 3 frames\n";
+  play(kTwoEdits + escapes + "screenshot asked.png\nkey Esc\nwait 3 frames\nscreenshot no.png\n",
        {"--size", "800x480"});
   EXPECT_TRUE(fs::exists(folder_ / "asked.png"));
   EXPECT_FALSE(fs::exists(folder_ / "no.png"));

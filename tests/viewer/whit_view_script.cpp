@@ -35,7 +35,7 @@ class PlayedScript : public ScriptedUser {
   explicit PlayedScript(const std::string& file)
       : player_(parseScript(readTextFile(file, std::uint64_t{1} << 20), file)) {}
 
-  bool act(bool sharp, Input& input, PanelSettings& settings) override {
+  bool act(bool sharp, Input& input, WindowState& shown) override {
     const ScriptStep step = player_.next(sharp, input);
     GLFWwindow* const window = glfwGetCurrentContext();
 
@@ -43,11 +43,14 @@ class PlayedScript : public ScriptedUser {
     if (step.minimize) glfwIconifyWindow(window);
     if (step.restore) glfwRestoreWindow(window);
     if (!step.tab.empty()) {
-      settings.tab = step.tab;
-      settings.shown = true;
+      shown.tab = step.tab;
+      shown.over = Over::panel;
     }
-    if (step.askedSamples) settings.supersample = false;
-    if (step.bare) settings.words = settings.shown = false;
+    if (step.askedSamples) shown.supersample = false;
+    if (step.bare) {
+      shown.words = false;
+      shown.over = Over::nothing;
+    }
     if (step.showErrors) survivesErrors_ = *step.showErrors;
 
     screenshot_ = step.screenshot;

@@ -1,10 +1,9 @@
 #include "viewer/serve/served_session.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <map>
-#include <type_traits>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -20,42 +19,19 @@ namespace {
 constexpr std::size_t kMostMessages = 4096;
 constexpr int kLeastSide = 16, kLargestSide = 4096;
 constexpr double kMostWindowPixels = 4e6;
-constexpr double kHeldSeconds =
-    1;  // keys are let go if the page does not repeat that they are held
 constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
 constexpr std::chrono::milliseconds kWait{200};
 constexpr std::chrono::seconds kDownloadTime{30};
-
-constexpr const char* kPresets[] = {"good", "standard", "reference"};
-
-void applyPreset(const std::string& preset, RenderOptions& options) {
-  setOption(options, "quality", preset);
-  applyQuality(options, {"mode"});  // the reference is too slow here
-}
-
-// Returns whether the options have all values of the preset.
-bool hasPreset(const std::string& preset, RenderOptions options) {
-  RenderOptions applied = options;
-  applyPreset(preset, applied);
-  options.quality = applied.quality;
-  return options == applied;
-}
 
 // Errors of files may hold bytes that are no UTF-8.
 std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// How the page shows an option; null where it does not.
-template <typename Field>
-Json describeOption(const OptionSpec& spec, const Field& /*field*/) {
-  using Kind = view::Control::Kind;
-  const view::Control control = view::describeControl<Field>(spec);
-  if (control.kind == Kind::none) return nullptr;
-
-  Json json{{"name", spec.name},
-            {"help", spec.help},
-            {"tab", spec.tab == Tab::knobs ? "knobs" : "picture"}};
+// How the page shows an option.
+Json describe(const view::Control& control) {
+  Json json{
+      {"name", control.name}, {"help", control.help}, {"tab", control.first ? "picture" : "knobs"}};
 
   if (!control.choices.empty()) {
     json["choices"] = control.choices;
@@ -64,11 +40,7 @@ Json describeOption(const OptionSpec& spec, const Field& /*field*/) {
 
   json["low"] = control.low;
   json["high"] = control.high;
-  if (control.kind == Kind::exposure) {
-    json["step"] = 0.25;
-  } else {
-    json["step"] = control.kind == Kind::integer ? Json(1) : Json("any");
-  }
+  json["step"] = control.step > 0 ? Json(control.step) : Json("any");
   return json;
 }
 
@@ -90,8 +62,8 @@ void ServedSession::Alarm::wait(double seconds) {
 
 ServedSession::ServedSession(const view::ViewOptions& options,
                              const std::shared_ptr<OpenScene>& scene, std::shared_ptr<Alarm> alarm)
-    : Session(options, scene, [alarm] { alarm->ring(); }),
-      alarm_(std::move(alarm)),
+    : alarm_(std::move(alarm)),
+      session_(options, scene, [alarm = alarm_] { alarm->ring(); }),
       name_(scene->scene.name),
       tables_(textOf(tablesJson())),
       size_(
@@ -154,12 +126,8 @@ std::string ServedSession::download(bool exr) {
              : encodePng(frame->film.display, frame->metadata);
 }
 
-void ServedSession::fail(const std::string& error) {
-  error_ = error;
-  changed_ = said_ = true;
-}
-
 void ServedSession::loop() {
+  session_.setWindow(size_, size_.height, 1);
   Stopwatch sinceStep;
   for (;;) {
     alarm_->wait(waitSeconds());
@@ -174,15 +142,15 @@ void ServedSession::loop() {
     try {
       step(std::min(seconds, kLongestSeconds));
     } catch (const std::exception& error) {
-      fail(error.what());
+      session_.fail(error.what());
+      changed_ = true;
     }
   }
 }
 
 double ServedSession::waitSeconds() const {
-  const bool active =
-      !thread_.committed() && (isActive() || !sharp_ || heldSeconds_ < kHeldSeconds);
-  return active ? 1 / resolution_.rate() : kIdleSeconds;
+  const bool active = !session_.isCommitted() && (session_.isActive() || !session_.state().sharp);
+  return active ? 1 / session_.rate() : kIdleSeconds;
 }
 
 void ServedSession::step(double seconds) {
@@ -196,23 +164,17 @@ void ServedSession::step(double seconds) {
     downloads = downloads_ > 0;
   }
 
-  // An error is shown until the user goes on.
-  if (!messages.empty()) error_.clear();
-  changed_ |= fetchFrame();
-
-  // An error of one message does not keep the others from being served.
-  for (const Message& message : messages) {
-    try {
-      serve(message);
-    } catch (const std::exception& error) {
-      fail(error.what());
-    }
-  }
+  const view::ViewState& state = session_.state();
+  const int errors = state.errors;
+  changed_ |= session_.fetchFrame();
+  for (const Message& message : messages) serve(message);
+  said_ |= !messages.empty() || state.errors != errors;
+  changed_ |= said_;
 
   // Downloads get the first frame with full resolution and all samples.
-  if (downloads) holdStill();
-  if (downloads && isComplete()) {
-    auto frame = std::make_shared<const view::TracedFrame>(shown_);
+  if (downloads) session_.holdStill();
+  if (downloads && session_.isComplete()) {
+    auto frame = std::make_shared<const view::TracedFrame>(state.shown);
     const std::lock_guard lock(mutex_);
     frame_ = std::move(frame);
     fresh_.notify_all();
@@ -221,90 +183,18 @@ void ServedSession::step(double seconds) {
   // Without a page that watches, neither the camera moves nor a picture is traced.
   if (!watched) return;
 
-  heldSeconds_ += seconds;
-  if (heldSeconds_ > kHeldSeconds) held_ = view::CameraMotion();
-  const view::CameraMotion motion = motionOf(drags_, size_.height / pixelsForCss_, 1, held_);
-  drags_ = view::Drags();
-
-  resolution_.setMostPixels(mostPixels_);
-  advance(motion, seconds);
-  if (changed_ || sharp_ != wasSharp_) publish();
+  session_.limitPixels(mostPixels_);
+  session_.advance(seconds);
+  if (changed_ || state.sharp != wasSharp_) publish();
 }
 
 void ServedSession::serve(const Message& message) {
   const auto& n = message.numbers;
-  const std::string& text = message.text;
-
-  const auto drag = [&](view::Drag& sum) {
-    sum.x += n[0];
-    sum.y += n[1];
-    if (sum.any()) pathTime_.reset();
-  };
-
-  const auto change = [&](auto&& make) {
-    RenderOptions next = settings_.options;  // stays if the change is an error
-    make(next);
-    settings_.options = next;
-    restSeconds_ = 0;
-  };
-
-  const std::map<std::string_view, std::function<void()>> acts{
-      {"size", [&] { resize(n[0], n[1], n[2]); }},
-      {"left", [&] { drag(drags_.left); }},
-      {"middle", [&] { drag(drags_.middle); }},
-      {"right", [&] { drag(drags_.right); }},
-      {"wheel", [&] { drags_.wheel += n[0]; }},
-      {"hold",
-       [&] {
-         held_ = {.forward = n[0],
-                  .right = n[1],
-                  .up = n[2],
-                  .fast = n[5] > 0,
-                  .turnRight = n[3],
-                  .turnUp = n[4]};
-         heldSeconds_ = 0;
-         if (n[0] != 0 || n[1] != 0 || n[2] != 0) pathTime_.reset();
-       }},
-      {"click",
-       [&] {
-         pick(std::min(static_cast<int>(n[0]), size_.width - 1),
-              std::min(static_cast<int>(n[1]), size_.height - 1));
-       }},
-      {"camera", [&] { jumpToNumber(static_cast<std::size_t>(n[0])); }},
-      {"fit", [&] { fitView(size_); }},
-      {"aside", [&] { settings_.rays.fromAside = true; }},
-      {"forget", [&] { settings_.rays.forget = true; }},
-      {"reload", [&] { reload(); }},
-      {"play", [&] { playOrPause(); }},
-      {"time", [&] { setTime(n[0]); }},
-      {"animation", [&] { chooseAnimation(text); }},
-      {"expose", [&] { expose(static_cast<float>(n[0])); }},
-      {"measure", [&] { settings_.measureKnobs = !settings_.measureKnobs; }},
-      {"view",
-       [&] { change([&](auto&) { parseValue(view::kViewOption, text, settings_.view); }); }},
-      {"preset", [&] { change([&](RenderOptions& next) { applyPreset(text, next); }); }},
-      {"effect",
-       [&] {
-         change([&](RenderOptions& next) {
-           parseEffects(message.name).forEach([&](Effect effect) {
-             next.disable = n[0] > 0 ? next.disable.without(effect) : next.disable.with(effect);
-           });
-         });
-       }},
-      {"set", [&] {
-         change([&](RenderOptions& next) {
-           bool known = false;
-           forEachOption(next, [&](const OptionSpec& spec, const auto&) {
-             known |= spec.tab != Tab::none && spec.name == message.name;
-           });
-
-           if (!known) throwUsage("the page has no option '" + message.name + "'");
-           setOption(next, message.name, text);
-         });
-       }}};
-
-  changed_ = said_ = true;
-  acts.at(message.verb)();
+  if (message.verb->act) {
+    session_.act(message);
+  } else if (message.verb->name == "size") {
+    resize(n[0], n[1], n[2]);
+  }
 }
 
 void ServedSession::resize(double width, double height, double pixelsForCss) {
@@ -313,55 +203,42 @@ void ServedSession::resize(double width, double height, double pixelsForCss) {
     return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
   };
   size_ = {side(width), side(height)};
-  pixelsForCss_ = pixelsForCss;
+  session_.setWindow(size_, size_.height / pixelsForCss, 1);
   fitUpright();
 }
 
 // Shows all of a model in a page that is narrower than the scene's own picture, as telephones are,
 // and undoes that in a wide page. A view that somebody has chosen stays.
 void ServedSession::fitUpright() {
-  if (!followed_ && !(upright_ && sameView(*upright_, control_.camera()))) return;
-  const bool narrow = size_.width * scene().height < size_.height * scene().width;
+  const std::optional<std::size_t> followed = session_.state().followed;
+  if (!followed && !(upright_ && sameView(*upright_, session_.camera()))) return;
+  const Scene& scene = session_.state().scene->scene;
+  const bool narrow = size_.width * scene.height < size_.height * scene.width;
 
-  if (narrow && control_.orbits()) {
-    if (followed_) uprightFrom_ = *followed_;
-    fitView(size_);
-    upright_ = control_.camera();
-  } else if (!followed_) {
-    jumpToNumber(uprightFrom_);
+  if (narrow && session_.orbits()) {
+    if (followed) uprightFrom_ = *followed;
+    session_.act("fit");
+    upright_ = session_.camera();
+  } else if (!followed) {
+    session_.act(concat("camera ", uprightFrom_));
   }
-}
-
-void ServedSession::setTime(double seconds) {
-  if (!settings_.timeline.there) throwUsage("nothing moves in this scene");
-  settings_.timeline.seconds = std::min(seconds, settings_.timeline.length);
-  settings_.timeline.playing = false;
-  restSeconds_ = 0;
-  followCamera();
-}
-
-void ServedSession::chooseAnimation(const std::string& name) {
-  view::Timeline& timeline = settings_.timeline;
-  if (std::ranges::find(timeline.animations, name) == timeline.animations.end()) {
-    throwUsage("no animation is called '" + name + "'");
-  }
-  timeline.animation = name;
-  changeAnimation();
 }
 
 void ServedSession::publish() {
-  if (!shown_.scene) return;
-  if (shown_.request.interruptible || sharp_) command_ = command(viewOptions());
+  const view::ViewState& state = session_.state();
+  if (!state.shown.scene) return;
+  const bool rests = state.shown.request.interruptible || state.sharp;
+  if (rests) command_ = session_.command();
 
   // The shot always holds the picture and the values that change with every picture.
   auto shot = std::make_shared<Shot>();
-  shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
-  shot->exact = wasSharp_ = sharp_;
+  shot->picture = state.unfinished ? state.unfinished->display : state.shown.film.display;
+  shot->exact = wasSharp_ = state.sharp;
   shot->live = textOf(liveJson());
 
   // Settings and the ray tree are written only after an action of the user or at rest. Pages get
   // them only if they differ from the last ones.
-  const bool said = std::exchange(said_, false) || shown_.request.interruptible || sharp_;
+  const bool said = std::exchange(said_, false) || rests;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;
@@ -378,36 +255,43 @@ void ServedSession::publish() {
 }
 
 Json ServedSession::tablesJson() const {
-  Json json{{"scene", scene().name},
-            {"options", Json::array()},
-            {"presets", kPresets},
-            {"views", Json::array()}};
+  const view::ViewState& state = session_.state();
+  const Scene& scene = state.scene->scene;
+  Json json{{"scene", scene.name},
+            {"presets", view::presetNames()},
+            {"views", kDebugViewNames},
+            {"path", !scene.cameraPath.empty() && !state.timeline.there}};
+  for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
 
-  for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);
-  json["path"] = !scene().cameraPath.empty() && !settings_.timeline.there;
-  for (const char* name : kDebugViewNames) json["views"].push_back(name);
+  for (const view::Control& control : view::controlsOf(state.options)) {
+    json["options"].push_back(describe(control));
+  }
 
-  forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
-    if (spec.tab == Tab::none) return;
-    if (Json option = describeOption(spec, field); !option.is_null())
-      json["options"].push_back(option);
-  });
+  // The page lists what it can do, and knows the line of each key. Some verbs without an action are
+  // done by the page itself.
+  constexpr std::array<std::string_view, 6> kOfPage{"cameras", "lines", "copy",
+                                                    "panel",   "keys",  "close"};
+  for (const view::Verb& verb : view::verbs()) {
+    const bool own = std::ranges::find(kOfPage, verb.name) != kOfPage.end();
+    if (verb.keys.empty() || !(verb.act || own)) continue;
+
+    json["keys"].push_back({verb.keys, verb.help});
+    for (const std::string& key : split(std::string(verb.keys), ' ')) {
+      if (const std::string line = view::lineOfKey(key); !line.empty()) json["lines"][key] = line;
+    }
+  }
   return json;
 }
 
 Json ServedSession::liveJson() const {
   // The status line states the sharpness of the picture and, in motion, the frame rate.
-  const FrameStats& stats = shown_.stats;
-  std::string status = unfinished_
-                           ? samplesText(*unfinished_)
-                           : sharpnessText(shown_.request) + view::errorText(shown_.sampleError);
-  if (pictureMs_ > 0) status += formatted(", %.0f frames/s", 1000 / pictureMs_);
-
-  const view::Timeline& timeline = settings_.timeline;
-  Json json{{"status", status},
-            {"message", messageSeconds_ > 0 ? message_ : ""},
-            {"error", error_},
-            {"sharp", sharp_},
+  const view::ViewState& state = session_.state();
+  const FrameStats& stats = state.shown.stats;
+  const view::Timeline& timeline = state.timeline;
+  Json json{{"status", view::statusText(state)},
+            {"message", state.message},
+            {"error", state.error},
+            {"sharp", state.sharp},
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
             {"embree", stats.embreeMs()}};
@@ -420,18 +304,18 @@ Json ServedSession::liveJson() const {
 
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     const RayTally& tally = stats.meter.tally[i];
-    if (!kRayKinds[i].calledForBy(shown_.effects)) continue;
+    if (!kRayKinds[i].calledForBy(state.shown.effects)) continue;
     json["rays"].push_back({kRayKinds[i].name, static_cast<double>(tally.rays) / 1e3,
                             mraysPerSecond(tally.rays, stats.frameMs), 100 * lanesFilled(tally)});
   }
-  if (shown_.debug) json["legend"] = shown_.debug->legend();
-  if (settings_.measureKnobs) json["measured"] = shown_.measured;
-  if (!rays_.scene) return json;
+  if (state.shown.debug) json["legend"] = state.shown.debug->legend();
+  if (state.measures) json["measured"] = state.shown.measured;
+  if (!state.rays.scene) return json;
 
   // The rays of the picked pixel become lines in pixels of the page's picture; tenths of a pixel
   // are precise enough.
-  const LineView view(shown_.request.camera, size_.width, size_.height);
-  for (const RayLine& line : rays_.lines) {
+  const LineView view(state.shown.request.camera, size_.width, size_.height);
+  for (const RayLine& line : state.rays.lines) {
     auto seen = view.see(line.from, line.to);
     if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
 
@@ -444,44 +328,40 @@ Json ServedSession::liveJson() const {
 }
 
 Json ServedSession::settledJson() const {
+  const view::ViewState& state = session_.state();
+  const view::TracedFrame& shown = state.shown;
+
   // Every page sets its controls by these values.
   Json json{{"command", command_},
-            {"view", kDebugViewNames[static_cast<std::size_t>(settings_.view)]},
-            {"options", Json::object()}};
-
-  forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
-    if (spec.tab != Tab::none) json["options"][std::string(spec.name)] = formatValue(spec, field);
-  });
-
-  for (const char* preset : kPresets) {
-    if (hasPreset(preset, settings_.options)) json["presets"].push_back(preset);
+            {"view", entryOf(kDebugViewNames, state.view)},
+            {"preset", view::presetOf(state.options)}};
+  for (const view::Control& control : view::controlsOf(state.options)) {
+    json["options"][control.name] = control.value;
   }
 
   // Each effect has a reason for being on or off. Costs are listed if they exceed the noise.
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-    const EffectReason& reason = shown_.reasons[i];
+    const EffectReason& reason = shown.reasons[i];
     json["effects"].push_back({kEffectNames[i].name, reason.on,
-                               !settings_.options.disable.has(static_cast<Effect>(i)),
-                               reason.because});
+                               !state.options.disable.has(static_cast<Effect>(i)), reason.because});
   }
 
-  for (const view::KnobCost& cost : view::toldFromNoise(costs_)) {
+  for (const view::KnobCost& cost : view::toldFromNoise(state.costs)) {
     json["costs"].push_back({cost.name, view::costText(cost)});
   }
-  json["about"] = formatted("%s, %s; %s, packets of %d, %d threads", scene().name.c_str(),
-                            shown_.surfaces.c_str(), shown_.machine.simd.c_str(),
-                            shown_.machine.packet, shown_.machine.threads);
+  json["about"] = view::aboutText(shown);
 
-  if (!settings_.timeline.animations.empty()) {
-    json["animations"] = settings_.timeline.animations;
-    json["animation"] = settings_.timeline.animation;
+  if (!state.timeline.animations.empty()) {
+    json["animations"] = state.timeline.animations;
+    json["animation"] = state.timeline.animation;
   }
 
   // The ray tree of the picked pixel comes with the colors of its lines.
-  if (rays_.scene) {
-    json["tree"] = pageTree(rays_.words, rays_.rays, settings_.options);
-    json["tree"]["pixel"] = {rays_.query.x, rays_.query.y};
-    for (const RayLook look : looksOf(rays_.lines)) {
+  const view::RayPick& rays = state.rays;
+  if (rays.scene) {
+    json["tree"] = pageTree(rays.words, rays.rays, state.options);
+    json["tree"]["pixel"] = {rays.query.x, rays.query.y};
+    for (const RayLook look : looksOf(rays.lines)) {
       json["tree"]["legend"].push_back({styleOf(look).name, colorOf(look)});
     }
   }

@@ -12,10 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "viewer/serve/messages.h"
 #include "viewer/session/session.h"
 
 namespace whit::serve {
+
+using view::Message;
 
 // A picture as pages show it, and what they write beside it, as JSON.
 struct Shot {
@@ -27,7 +28,7 @@ struct Shot {
   std::uint64_t settledNumber = 0;
 };
 
-class ServedSession : public view::Session {
+class ServedSession {
  public:
   // Wakes the loop; the tracing thread may outlive the rest of this object.
   struct Alarm {
@@ -39,7 +40,9 @@ class ServedSession : public view::Session {
   };
   ServedSession(const view::ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                 std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
-  ~ServedSession() override;
+  ~ServedSession();
+  ServedSession(const ServedSession&) = delete;
+  ServedSession& operator=(const ServedSession&) = delete;
 
   // The functions below may be called from any thread.
 
@@ -60,31 +63,23 @@ class ServedSession : public view::Session {
   const std::string& name() const { return name_; }
 
  private:
-  void fail(const std::string& error) override;
-  ImageSize windowPixels() const override { return size_; }
-
   void loop();
   double waitSeconds() const;
   void step(double seconds);
   void serve(const Message& message);
   void resize(double width, double height, double pixelsForCss);
   void fitUpright();
-  void setTime(double seconds);
-  void chooseAnimation(const std::string& name);
   void publish();
   Json tablesJson() const;
   Json liveJson() const;
   Json settledJson() const;
 
   const std::shared_ptr<Alarm> alarm_;
+  view::Session session_;
   const std::string name_, tables_;
   ImageSize size_;
-  double pixelsForCss_ = 1;
   std::optional<Camera> upright_;  // the view that fits a narrow page
   std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before
-  view::Drags drags_;
-  view::CameraMotion held_;
-  double heldSeconds_ = 0;  // time since the page said what is held
   std::atomic<double> mostPixels_ = 1e9;
   bool changed_ = true;  // there is something to show
   bool said_ = false;    // the user has done something since the last shot

@@ -112,7 +112,7 @@ class Connection : public httplib::Stream {
 
   // Waits for a request and allows it its share; returns false if none comes.
   bool begin() {
-    left_ = kRequestBytes + kMessageBytes;
+    left_ = kRequestBytes + view::kMessageBytes;
     since_ = Stopwatch();
     if (over) return false;
     if (at_ < size_) return true;
@@ -306,7 +306,7 @@ class Server::Http : public httplib::Server {
 
     // These limits bound what clients can take up.
     new_task_queue = [] { return new ThreadsOnDemand(); };
-    set_payload_max_length(kMessageBytes);
+    set_payload_max_length(view::kMessageBytes);
     set_tcp_nodelay(true);
     set_keep_alive_max_count(kMostRequests);
     set_keep_alive_timeout(static_cast<time_t>(kTrustedIdleSeconds));
@@ -373,11 +373,11 @@ class Server::Http : public httplib::Server {
     Get(root + "picture.exr", [this](const Request&, Response& r) { download(r, true); });
 
     Post(root + "input", [this](const Request& request, Response& response) {
-      std::vector<Message> messages = readMessages(request.body);
+      std::vector<Message> messages = view::readMessages(request.body);
 
       // Acknowledgements go to the page's stream, everything else to the session.
       std::erase_if(messages, [this](const Message& message) {
-        if (message.verb != "ack") return false;
+        if (message.verb->name != "ack") return false;
         acknowledge(static_cast<int>(message.numbers[0]),
                     static_cast<std::uint32_t>(message.numbers[1]));
         return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "command_line/progress_bar.h"
 #include "core/option_table.h"
 #include "output/frame_summary.h"
 #include "output/open_and_warn.h"
@@ -61,6 +62,10 @@ void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
   common.load.settings = choice.settings;
   common.load.instant.animation = choice.animation;
+  if (choice.sky) {
+    common.load.sky = *choice.sky;
+    common.load.allowOutside = true;  // the user chose the file of the sky
+  }
   auto next = std::make_unique<Engine>(openAndWarn(choice.name, common, nullptr));
   next->setOptions(engine_->options());
   next->prepare();
@@ -74,7 +79,16 @@ void FrameTracer::edit(const SceneEdit& edit) {
   // The edit is for the scene of this name. Pointers to scenes do not tell, because an earlier edit
   // may have had the same scene read again.
   if (!edit.scene || edit.scene->source.name != engine_->opened()->source.name) return;
+  const auto known = engine_->opened()->warnings.entries();
   engine_->setSettings(editedLoad(edit));
+
+  Warnings fresh;
+  for (const auto& [kind, entry] : engine_->opened()->warnings.entries()) {
+    if (known.contains(kind)) continue;
+    fresh.note(kind, entry.first, entry.count);
+    warning_ = kind + ": " + entry.first;
+  }
+  if (common_.warns) cli::tellWarnings(fresh);
   edited_.reset();
 }
 
@@ -134,6 +148,7 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   frame.options = engine_->options();
   copySampledRays(request.options, frame.options);
   frame.animation = animation_;
+  frame.warning = std::exchange(warning_, "");
 
   frame.surfaces = surfacesText(scene.instancedTriangles, scene.instancedSpheres);
   frame.effects = renderer.plan().effects;

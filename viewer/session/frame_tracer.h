@@ -60,7 +60,8 @@ bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera
 struct SceneChoice {
   std::string name;
   std::vector<std::string> settings;
-  std::string animation;  // empty: the first one
+  std::string animation;                // empty: the first one
+  std::optional<std::string> sky = {};  // of a scene that is read again with its edits
 };
 
 struct FrameRequest {
@@ -111,6 +112,7 @@ struct TracedFrame {
   RenderOptions options;  // the renderer's, with the sampled rays that a plain picture leaves out
   std::string surfaces;   // the number of triangles and spheres, in words
   std::string animation;  // the animation that was asked for
+  std::string warning;    // that an edit has given; empty: none
   Film film;
   FrameStats stats;
   ImageMetadata metadata;
@@ -211,6 +213,7 @@ class FrameTracer {
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
   std::string animation_;                      // the animation that the scene was read with
+  std::string warning_;                        // of edits, until a picture tells it
   Film band_;                                  // the film of measure()
   std::optional<FrameRequest> finished_;       // the last picture that was not given up
   double msPerSample_ = 0;  // of the last picture that was not plain; 0: none yet

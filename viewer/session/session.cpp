@@ -9,14 +9,15 @@
 #include "core/text.h"
 #include "engine/open_scene.h"
 #include "io/files.h"
+#include "viewer/session/control.h"
 
 namespace whit::view {
 
 namespace {
 
 constexpr float kExposureLimit = 64;
-constexpr double kMessageSeconds = 4;
 constexpr double kEditPauseSeconds = 0.5;  // a longer pause begins another edit
+constexpr std::size_t kMostEdits = 200;    // that can be undone
 constexpr double kPixelsPerNotch = 20;     // dragged with the right button to go forward
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
@@ -55,11 +56,6 @@ std::string errorText(double sampleError) {
   return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : "";
 }
 
-std::string samplesText(const UnfinishedFrame& frame) {
-  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
-         errorText(frame.sampleError);
-}
-
 std::string sharpnessText(const FrameRequest& request) {
   const int window = std::max(request.window.width, 1);
   const int width = request.options.size ? request.options.size->width : window;
@@ -67,6 +63,23 @@ std::string sharpnessText(const FrameRequest& request) {
   if (request.spp != 1) text += formatted(", %d samples", request.spp);
   if (request.plain) text += ", without sampled rays";
   return text;
+}
+
+std::string statusText(const ViewState& state) {
+  std::string text = sharpnessText(state.shown.request) + errorText(state.shown.sampleError);
+  if (const auto& next = state.unfinished) {
+    text = formatted("%d of %d samples", next->samples, next->request.spp) +
+           errorText(next->sampleError);
+  }
+  if (state.pictureMs > 0) text += formatted(", %.0f frames/s", 1000 / state.pictureMs);
+  return text;
+}
+
+std::string aboutText(const TracedFrame& frame) {
+  const Machine& machine = frame.machine;
+  return formatted("%s, %s; %s, packets of %d, %d thread%s", frame.scene->scene.name.c_str(),
+                   frame.surfaces.c_str(), machine.simd.c_str(), machine.packet, machine.threads,
+                   machine.threads == 1 ? "" : "s");
 }
 
 bool Timeline::step(double later) {
@@ -111,11 +124,11 @@ bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
 }
 
 void Session::rememberCosts() {
-  if (!shown_.costs.empty()) {
-    costs_ = shown_.costs;
-    measuredFor_ = shown_.request;
-  } else if (!isMeasuredView(measuredFor_, shown_.request)) {
-    costs_.clear();
+  if (!state_.shown.costs.empty()) {
+    state_.costs = state_.shown.costs;
+    measuredFor_ = state_.shown.request;
+  } else if (!isMeasuredView(measuredFor_, state_.shown.request)) {
+    state_.costs.clear();
   }
 }
 
@@ -142,11 +155,11 @@ bool clip(ScreenLine& line, double width, double height) {
   return true;
 }
 
-void select(const RayPick& pick, RayView& view) {
-  view.material = view.light = kNoCounterpart;
+Selection select(const RayPick& pick) {
+  Selection selection;
   const RayNode& met = pick.rays.packets.nodes.front();
-  if (met.triangle == kMiss) return;
-  view.material = met.material;
+  if (met.triangle == kMiss) return selection;
+  selection.material = met.material;
 
   // The selected light is the one that adds most to the surface in its largest channel.
   double most = 0;
@@ -155,79 +168,131 @@ void select(const RayPick& pick, RayView& view) {
     if (radiance <= most || light.light == kAmbientLight) continue;
 
     most = radiance;
-    view.light = light.light;
+    selection.light = light.light;
   }
+  return selection;
 }
 
 Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                  std::function<void()> onChange)
     : options_(options),
-      scene_(scene),
       thread_(scene, options.common, std::move(onChange)),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
-      edited_(editedScene(*scene)),
-      ownSky_(edited_.sky),
-      readSettings_(edited_.settings),
       subject_(subjectOf(scene->scene)) {
-  savedSettings_ = readSettings_;
+  state_.scene = scene;
+  state_.edited = editedScene(*scene);
+  state_.ownSky = state_.edited.sky;
+  savedSettings_ = readSettings_ = state_.edited.settings;
   watch(options.scene);
   say(noLightWarning(scene->scene));
 
-  settings_.options = cli::optionsFor(scene->scene, options.common);
-  settings_.view = options.view;
-  settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
-  if (scene->isMade) settings_.timeline.animations.clear();  // others would have to be read
+  state_.options = cli::optionsFor(scene->scene, options.common);
+  state_.view = options.view;
+  state_.timeline = timelineOf(scene->scene, options.common.load.instant);
+  if (scene->isMade) state_.timeline.animations.clear();  // others would have to be read
+  past_ = {present()};
 
   // If the view is that of one of the scene's cameras, it moves with that camera.
   const Camera start = control_.camera();
   show(start);
-  for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
-    if (sameView(scene->scene.cameras[i], start)) followed_ = i;
+  for (std::size_t i = 0; i < scene->scene.cameras.size() && !state_.followed; ++i) {
+    if (sameView(scene->scene.cameras[i], start)) state_.followed = i;
   }
 }
 
-void Session::say(const std::string& message) {
-  message_ = message;
-  messageSeconds_ = kMessageSeconds;
+void Session::act(const Message& message) {
+  try {
+    message.verb->act(*this, message);
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
 }
 
-void Session::advance(const CameraMotion& motion, double seconds) {
-  const bool moved = moveCamera(motion, seconds), played = play(seconds);
+void Session::act(const std::string& lines) {
+  for (const Message& message : readMessages(lines)) act(message);
+}
+
+void Session::fail(const std::string& error) {
+  state_.error = error;
+  ++state_.errors;
+}
+
+void Session::say(const std::string& message, double seconds) {
+  state_.message = message;
+  messageSeconds_ = seconds;
+}
+
+void Session::setWindow(const ImageSize& pixels, double height, double scale) {
+  windowHeight_ = std::max(height, 1.0);
+  dragScale_ = scale;
+
+  // A new window size counts as motion, so that the first picture for it comes at once.
+  if (std::exchange(windowSize_, pixels) != pixels) restSeconds_ = 0;
+}
+
+void Session::advance(double seconds) {
+  heldSeconds_ += seconds;
+  const bool moved = moveCamera(takeMotion(), seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
   watchSceneFile();
   followRays();
   askForFrame();
   messageSeconds_ -= seconds;
+  if (messageSeconds_ <= 0) state_.message.clear();
   sinceEdit_ += seconds;
 }
 
 bool Session::isActive() const {
-  return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds;
+  return pathTime_ || state_.timeline.playing || restSeconds_ < kSettleSeconds ||
+         heldSeconds_ < kHeldSeconds;
 }
 
 bool Session::isComplete() const {
-  const FrameRequest& shown = shown_.request;
-  return shown_.scene && shown.options.size == shown.window && !shown.plain &&
-         shown.spp >= settings_.options.spp && sameSubject(shown, requestFor({}, true));
+  const FrameRequest& shown = state_.shown.request;
+  return state_.shown.scene && shown.options.size == shown.window && !shown.plain &&
+         shown.spp >= state_.options.spp && sameSubject(shown, requestFor({}, true));
 }
 
 void Session::holdStill() {
   pathTime_.reset();
-  settings_.timeline.playing = false;
+  state_.timeline.playing = false;
 }
 
-CameraMotion Session::motionOf(const Drags& drags, double height, double scale,
-                               CameraMotion motion) const {
-  motion.wheel = drags.wheel;
+// Drags and keys that walk take the camera off the path that it flies along.
+void Session::drag(Drag& sum, const Message& message) {
+  sum.x += message.numbers[0];
+  sum.y += message.numbers[1];
+  if (sum.any()) pathTime_.reset();
+}
+
+void Session::hold(const Message& message) {
+  const auto& n = message.numbers;
+  held_ = {.forward = n[0],
+           .right = n[1],
+           .up = n[2],
+           .fast = n[5] > 0,
+           .turnRight = n[3],
+           .turnUp = n[4]};
+
+  if (n[0] != 0 || n[1] != 0 || n[2] != 0) pathTime_.reset();
+  const bool any = std::ranges::any_of(n, [](double number) { return number != 0; });
+  heldSeconds_ = any ? 0 : kHeldSeconds;
+}
+
+// Returns what keys and drags ask for, and forgets the drags.
+CameraMotion Session::takeMotion() {
+  if (heldSeconds_ > kHeldSeconds) held_ = CameraMotion();
+  const Drags drags = std::exchange(drags_, Drags());
+  CameraMotion motion = held_;
 
   // The left button orbits, or looks around in a room; the right one goes forward and back.
-  motion.turnX = drags.left.x / scale;
-  motion.turnY = drags.left.y / scale;
-  motion.wheel -= drags.right.y / scale / kPixelsPerNotch;
+  motion.turnX = drags.left.x / dragScale_;
+  motion.turnY = drags.left.y / dragScale_;
+  motion.wheel = drags.wheel - drags.right.y / dragScale_ / kPixelsPerNotch;
 
-  motion.panX = drags.middle.x / std::max(height, 1.0);
-  motion.panY = drags.middle.y / std::max(height, 1.0);
+  motion.panX = drags.middle.x / windowHeight_;
+  motion.panY = drags.middle.y / windowHeight_;
   return motion;
 }
 
@@ -237,20 +302,20 @@ bool Session::moveCamera(const CameraMotion& motion, double seconds) {
     return true;
   }
   const bool moved = control_.step(motion, seconds);
-  if (moved) followed_.reset();
+  if (moved) state_.followed.reset();
   return moved;
 }
 
 bool Session::play(double seconds) {
-  if (!settings_.timeline.step(seconds)) return false;
+  if (!state_.timeline.step(seconds)) return false;
   followCamera();
   return true;
 }
 
 // Follows a camera that moves until the user moves the view.
 void Session::followCamera() {
-  if (!followed_ || !settings_.timeline.there) return;
-  show(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
+  if (!state_.followed || !state_.timeline.there) return;
+  show(whit::cameraAt(scene(), *state_.followed, state_.timeline.seconds));
 }
 
 void Session::flyPath(double seconds) {
@@ -268,51 +333,78 @@ bool Session::fetchFrame() {
     if (thread_.takeLoadFailure()) opening_.clear();
 
     // The options of the picture that is shown are known to work.
-    if (shown_.scene) settings_.options = shown_.request.options;
+    if (state_.shown.scene) {
+      const auto size = state_.options.size;
+      state_.options = state_.shown.request.options;
+      state_.options.size = size;
+      takeBack();
+    }
     fail(error);
   }
 
   // The answer to a pick and the samples of an unfinished picture are shown without a new frame.
   if (auto pick = thread_.takePick(); pick && picked_) {
-    rays_ = std::move(*pick);
-    if (std::exchange(selects_, false)) select(rays_, settings_.rays);
+    state_.rays = std::move(*pick);
+    if (std::exchange(selects_, false)) {
+      state_.selected = select(state_.rays);
+      ++state_.selections;
+    }
     answered = true;
   }
   if (auto frame = thread_.takeUnfinished()) {
-    unfinished_ = std::move(frame);
+    state_.unfinished = std::move(frame);
     answered = true;
   }
 
-  if (!thread_.take(shown_)) return answered;
-  unfinished_.reset();
-  if (shown_.scene != scene_) {
-    const bool elsewhere = !opening_.empty();
-    takeScene();
+  if (!thread_.take(state_.shown)) return answered;
+  state_.unfinished.reset();
+  if (state_.shown.scene != state_.scene) {
+    // A picture that was asked for earlier may show the old scene, read again.
+    const bool elsewhere = !opening_.empty() && state_.shown.request.reloads == reloads_;
+    takeScene(elsewhere);
     if (elsewhere) return false;  // the picture is from the camera of the other scene
   }
 
   // An automatic exposure is measured once, and then stays while the view changes.
-  const FrameRequest& request = shown_.request;
-  if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
+  const FrameRequest& request = state_.shown.request;
+  if (state_.options.exposure.automatic) {
+    state_.options.exposure = request.options.exposure;
+    for (Past& past : past_) {
+      if (past.options.exposure.automatic) past.options.exposure = request.options.exposure;
+    }
+  }
 
   // An edit that failed is taken back.
-  if (request.edits == edits_) edited_ = *shown_.edited;
-
-  // The cost of a sample decides the resolution of the next picture in motion.
-  if (request.view == settings_.view) {
-    resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.plain);
+  if (request.edits == edits_) {
+    state_.edited = *state_.shown.edited;
+    takeBack();
   }
-  if (!request.plain) resolution_.setSampled(shown_.sampled);
+
+  if (!state_.shown.warning.empty()) say("warning: " + state_.shown.warning);
+
+  learnTimes();
   rememberCosts();
+  if (state_.shown.measured == 1) state_.measures = false;
+  return true;
+}
+
+void Session::learnTimes() {
+  // The cost of a sample decides the resolution of the next picture in motion.
+  const FrameRequest& request = state_.shown.request;
+  if (request.view == state_.view) {
+    resolution_.learn(state_.shown.stats.frameMs, samplesOf(request), request.plain);
+  }
+  if (!request.plain) resolution_.setSampled(state_.shown.sampled);
 
   // The frame rate is shown as a mean over the last pictures in motion, the newest counting most.
   constexpr double kNewest = 0.2;  // weight of the newest picture
   const double ms = std::exchange(sincePicture_, Stopwatch()).ms();
-  pictureMs_ = request.interruptible ? 0
-               : pictureMs_ > 0      ? std::lerp(pictureMs_, ms, kNewest)
-                                     : 1000 / resolution_.rate();
-  if (shown_.measured == 1) settings_.measureKnobs = false;
-  return true;
+  double& mean = state_.pictureMs;
+  if (request.interruptible) {
+    mean = 0;
+  } else {
+    mean = mean > 0 ? std::lerp(mean, ms, kNewest) : 1000 / resolution_.rate();
+  }
 }
 
 FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
@@ -321,27 +413,27 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   };
 
   FrameRequest request;
-  request.window = windowPixels();
+  request.window = windowSize_;
   request.camera = control_.camera();
-  request.options = settings_.options;
+  request.options = state_.options;
   request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
 
   request.spp = sharpness.spp;
   // An automatic exposure is measured with all rays.
-  request.plain = sharpness.plain && !settings_.options.exposure.automatic;
-  request.view = settings_.view;
-  request.measureKnobs = still && sharpness.scale >= 1 && settings_.measureKnobs;
+  request.plain = sharpness.plain && !state_.options.exposure.automatic;
+  request.view = state_.view;
+  request.measureKnobs = still && sharpness.scale >= 1 && state_.measures;
 
   request.reloads = reloads_;
   request.edits = edits_;
-  request.seconds = settings_.timeline.time();
+  request.seconds = state_.timeline.time();
   request.interruptible = still;
   return request;
 }
 
 // More samples would blur the values of a debug view and delay a measurement.
 bool Session::supersamples() const {
-  return settings_.supersample && settings_.view == DebugView::none && !settings_.measureKnobs;
+  return supersample_ && state_.view == DebugView::none && !state_.measures;
 }
 
 FrameRequest Session::movingRequest(const ImageSize& window) {
@@ -356,9 +448,9 @@ FrameRequest Session::stillRequest(const ImageSize& window) {
 
   // A new view begins with the first step that is no coarser than what is shown of it already.
   if (!stillFor_ || !sameSubject(request, *stillFor_)) {
-    const bool shown = shown_.scene && sameSubject(request, shown_.request);
+    const bool shown = state_.shown.scene && sameSubject(request, state_.shown.request);
     const double scale =
-        shown ? static_cast<double>(shown_.request.options.size->width) / window.width : 0;
+        shown ? static_cast<double>(state_.shown.request.options.size->width) / window.width : 0;
 
     resolution_.startSharpening(static_cast<double>(window.width) * window.height, scale);
     stillFor_ = request;
@@ -366,9 +458,9 @@ FrameRequest Session::stillRequest(const ImageSize& window) {
   }
 
   // A step that is shown already is followed by the next one; after the last the picture is sharp.
-  while (shown_.scene && samePicture(request, shown_.request)) {
+  while (state_.shown.scene && samePicture(request, state_.shown.request)) {
     if (!resolution_.sharpen(supersamples())) {
-      sharp_ = !thread_.busy();
+      state_.sharp = !thread_.busy();
       break;
     }
     request = requestFor(resolution_.still(supersamples()), true);
@@ -378,17 +470,15 @@ FrameRequest Session::stillRequest(const ImageSize& window) {
 
 // Asks for the rays of the picked pixel again when anything but the viewpoint has changed.
 void Session::followRays() {
-  if (settings_.rays.forget) forgetRays();
-  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) jump(rays_.aside);
   if (!picked_) return;
 
   // The query keeps the camera and the size of the pick; everything else follows the picture.
   RayQuery query = *picked_;
-  query.picture.options = settings_.options;
+  query.picture.options = state_.options;
   query.picture.options.size = picked_->picture.options.size;
   query.picture.reloads = reloads_;
   query.picture.edits = edits_;
-  query.picture.seconds = shown_.request.seconds;
+  query.picture.seconds = state_.shown.request.seconds;
 
   if (queried_ && sameRays(query, *queried_)) return;
   thread_.query(query);
@@ -396,14 +486,11 @@ void Session::followRays() {
 }
 
 void Session::askForFrame() {
-  sharp_ = false;
-  const ImageSize window = windowPixels();
+  state_.sharp = false;
+  const ImageSize window = windowSize_;
   if (window.width < 1 || window.height < 1) return;
 
-  resolution_.setSamples(settings_.options.spp, hasSampledRays(settings_.options));
-
-  // A new window size counts as motion, so that the first picture for it comes at once.
-  if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
+  resolution_.setSamples(state_.options.spp, hasSampledRays(state_.options));
 
   const FrameRequest request =
       restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
@@ -411,38 +498,58 @@ void Session::askForFrame() {
   if (thread_.ask(request)) asked_ = request;
 }
 
-void Session::edit(const std::vector<std::string>& settings) {
-  // What is edited without a pause is one edit, as dragging a slider makes many.
-  const bool goesOn = !undo_.empty() && sinceEdit_ < kEditPauseSeconds;
-  if (!goesOn) undo_.push_back(edited_);
-  sinceEdit_ = 0;
-  addEdit(settings, edited_);
+void Session::edit(const std::vector<std::string>& settings, const EditedScene& edited) {
+  state_.edited = edited;
+  addEdit(settings, state_.edited);
   postEdit();
+  remember();
 }
 
-void Session::undoEdit() {
-  if (undo_.empty()) {
-    say("there is no edit to undo");
+// Notes the present state as one that undoing returns to. Without a pause it takes the place of the
+// last one.
+void Session::remember() {
+  const bool goesOn = past_.size() > 1 && sinceEdit_ < kEditPauseSeconds;
+  if (goesOn) past_.pop_back();
+  sinceEdit_ = 0;
+  past_.push_back(present());
+  if (past_.size() > kMostEdits) past_.erase(past_.begin());
+}
+
+// Something failed: the present state takes the place of the one that could not be had.
+void Session::takeBack() {
+  past_.back() = present();
+  if (past_.size() > 1 && past_.back() == past_[past_.size() - 2]) past_.pop_back();
+}
+
+void Session::undo() {
+  if (past_.size() < 2) {
+    say("there is nothing to undo");
     return;
   }
 
-  edited_ = std::move(undo_.back());
-  undo_.pop_back();
+  past_.pop_back();
+  const Past& past = past_.back();
   sinceEdit_ = kEditPauseSeconds;  // what is edited next is another edit
+  restSeconds_ = 0;
+  state_.options = past.options;
+  say("undone");
+
+  // The members of the scene come with its next picture.
+  if (past.settings == state_.edited.settings && past.givenSky == state_.edited.givenSky) return;
+  state_.edited.settings = past.settings;
+  state_.edited.givenSky = past.givenSky;
   postEdit();
-  say("the last edit is undone");
 }
 
 void Session::postEdit() {
   ++edits_;
   restSeconds_ = 0;
-  thread_.edit({scene_, edited_.settings, edited_.givenSky});
+  thread_.edit({state_.scene, state_.edited.settings, state_.edited.givenSky});
 }
 
 void Session::watch(const std::string& scene) {
-  sceneName_ = scene;
-  rememberRecent(scene, settings_.recent);
-  if (scene_->isMade) return;
+  state_.sceneName = scene;
+  if (state_.scene->isMade) return;
   sceneFile_ = findScene(parseSceneName(scene).file, options_.common.load.shippedScenes);
   sceneFileTime_ = timeOf(sceneFile_);
 }
@@ -457,53 +564,71 @@ void Session::watchSceneFile() {
 void Session::load(const SceneChoice& choice, const std::string& message) {
   ++reloads_;
   restSeconds_ = 0;
-  error_.clear();
-  undo_.clear();
+  state_.error.clear();
   thread_.load(choice);
   say(message);
 }
 
 void Session::reload() {
-  if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
-  if (scene_->isMade) throwUsage("the scene was made by a program: it cannot be read again here");
-  load({sceneName_, readSettings_, settings_.timeline.animation}, "reading the scene again");
+  if (!opening_.empty()) return open(opening_);  // state_.sceneName is still that of the old scene
+  if (state_.scene->isMade)
+    throwUsage("the scene was made by a program: it cannot be read again here");
+  // Edits stay.
+  load(
+      {state_.sceneName, state_.edited.settings, state_.timeline.animation, state_.edited.givenSky},
+      "reading the scene again");
 }
 
-void Session::changeAnimation() {
-  settings_.timeline.seconds = 0;
+void Session::setTime(double seconds) {
+  Timeline& timeline = state_.timeline;
+  if (!timeline.there) throwUsage("nothing moves in this scene");
+  timeline.seconds = std::min(seconds, timeline.length);
+  timeline.playing = false;  // a time that is set by hand stops the clock
+  restSeconds_ = 0;
+  followCamera();
+}
+
+void Session::chooseAnimation(const std::string& name) {
+  Timeline& timeline = state_.timeline;
+  if (std::ranges::find(timeline.animations, name) == timeline.animations.end()) {
+    throwUsage("no animation is called '" + name + "'");
+  }
+  timeline.animation = name;
+  timeline.seconds = 0;
   reload();
 }
 
 // Takes the options of the scene that was just read where the user has not changed them. The
 // exposure for one scene says nothing about another.
-void Session::takeOptions(const Scene& last) {
+void Session::takeOptions(const Scene& last, bool elsewhere) {
   const RenderOptions before = cli::optionsFor(last, options_.common);
   const RenderOptions own = cli::optionsFor(scene(), options_.common);
   for (const std::string& name : sceneOptionNames()) {
-    const bool isKept = opening_.empty() || name != "exposure";
-    if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
-    setOption(settings_.options, name, optionText(own, name));
+    const bool isKept = !elsewhere || name != "exposure";
+    if (isKept && optionText(state_.options, name) != optionText(before, name)) continue;
+    setOption(state_.options, name, optionText(own, name));
   }
 }
 
 // Called when the frame that was just fetched shows another scene, or the scene read again.
-void Session::takeScene() {
-  const std::shared_ptr<const OpenScene> last = std::exchange(scene_, shown_.scene);
-  const std::lock_guard lock(scene_->moving);
+void Session::takeScene(bool elsewhere) {
+  const std::shared_ptr<const OpenScene> last = std::exchange(state_.scene, state_.shown.scene);
+  const std::lock_guard lock(state_.scene->moving);
 
   // Edits do not outlive a scene, but the user's options do.
-  edited_ = *shown_.edited;
-  if (!opening_.empty() || edited_.settings == readSettings_) ownSky_ = edited_.sky;
+  state_.edited = *state_.shown.edited;
+  if (elsewhere || state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
   subject_ = subjectOf(scene());
-  takeOptions(last->scene);
+  takeOptions(last->scene, elsewhere);
 
   // A scene that was read again keeps the camera and the time.
-  if (opening_.empty()) {
+  if (!elsewhere) {
+    past_.back() = present();
     if (scene().cameraPath.empty()) pathTime_.reset();
-    const Timeline before = settings_.timeline;
-    settings_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
-    settings_.timeline.seconds = std::min(before.seconds, settings_.timeline.length);
-    settings_.timeline.playing = settings_.timeline.there && before.playing;
+    const Timeline before = state_.timeline;
+    state_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
+    state_.timeline.seconds = std::min(before.seconds, state_.timeline.length);
+    state_.timeline.playing = state_.timeline.there && before.playing;
     say("the scene was read again");
     return;
   }
@@ -512,61 +637,115 @@ void Session::takeScene() {
   watch(opening_);
   opening_.clear();
   forgetRays();
-  savedSettings_ = readSettings_ = edited_.settings;
+  savedSettings_ = readSettings_ = state_.edited.settings;
+  past_ = {present()};
 
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   show(control_.camera());
   pathTime_.reset();
-  followed_ = 0;
+  state_.followed = 0;
 
-  settings_.timeline = timelineOf(scene(), {});
+  state_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
-  say("opened " + sceneName_ + ". " + noLightWarning(scene()));
-  opened();
+  say("opened " + state_.sceneName + ". " + noLightWarning(scene()));
 }
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
 
-void Session::fitView(const ImageSize& window) {
-  if (!control_.orbits()) return jumpToNumber(0);
-  control_.fit(static_cast<double>(window.width) / std::max(window.height, 1));
+void Session::fitView() {
+  if (!control_.orbits()) {
+    jumpToNumber(0);
+    return;
+  }
+  control_.fit(static_cast<double>(windowSize_.width) / std::max(windowSize_.height, 1));
   jump(control_.camera());
 }
 
-// Returns the command that makes the view shown with these options.
-std::string Session::command(const RenderOptions& options) const {
-  if (shown_.scene->isMade) return "# The scene was made by a program: no command renders it.";
-  const std::lock_guard lock(shown_.scene->moving);
-  return renderCommand(sceneName_, options_.common, shown_, options);
+std::string Session::command() const {
+  const TracedFrame& shown = state_.shown;
+  if (!shown.scene) return "";
+  if (shown.scene->isMade) return "# The scene was made by a program: no command renders it.";
+
+  const std::lock_guard lock(shown.scene->moving);
+  return viewCommand(state_.sceneName, options_.common, shown, viewOptions());
 }
 
 // Returns the options of the picture shown; for a view that is not sharp yet, those that it will
 // have when it is.
 RenderOptions Session::viewOptions() const {
-  RenderOptions options = shown_.options;
+  RenderOptions options = state_.shown.options;
   if (!isComplete()) {
-    options.size = windowPixels();
-    options.spp = settings_.options.spp;
+    options.size = windowSize_;
+    options.spp = state_.options.spp;
   }
   return options;
 }
 
-void Session::expose(float step) {
-  float& exposure = settings_.options.exposure.ev;
-  exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
+SavedScene Session::saveScene() {
+  // The lock keeps the animation from moving the scene while it is written.
+  const std::lock_guard lock(state_.scene->moving);
+  const SavedScene saved = view::saveScene(options_.common.load, state_.sceneName, state_.shown,
+                                           control_.camera(), viewOptions(), state_.options);
+  savedSettings_ = state_.shown.edited->settings;
+  return saved;
+}
+
+void Session::changeOptions(const RenderOptions& options) {
+  state_.options = options;
   restSeconds_ = 0;
-  say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));
+  remember();
+}
+
+void Session::chooseOption(const std::string& name, const std::string& value) {
+  const std::vector<Control> controls = controlsOf(state_.options);
+  if (std::ranges::find(controls, name, &Control::name) == controls.end()) {
+    throwUsage("the viewer has no control for '" + name + "'");
+  }
+  RenderOptions next = state_.options;
+  setOption(next, name, value);
+  changeOptions(next);
+}
+
+void Session::chooseEffect(const std::string& name, bool on) {
+  RenderOptions next = state_.options;
+  parseEffects(name).forEach([&](Effect effect) {
+    next.disable = on ? next.disable.without(effect) : next.disable.with(effect);
+  });
+  changeOptions(next);
+}
+
+void Session::choosePreset(const std::string& name) {
+  RenderOptions next = state_.options;
+  applyPreset(name, next);
+  changeOptions(next);
+}
+
+void Session::expose(float step) {
+  RenderOptions next = state_.options;
+  float& ev = next.exposure.ev;
+  ev = std::clamp(ev + step, -kExposureLimit, kExposureLimit);
+  changeOptions(next);
+  say(formatted("exposure %+.2f EV", static_cast<double>(ev)));
 }
 
 void Session::showNextView() {
-  const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
-  settings_.view = static_cast<DebugView>(next);
-  restSeconds_ = 0;
+  const std::size_t next = (static_cast<std::size_t>(state_.view) + 1) % kDebugViewNames.size();
+  chooseView(kDebugViewNames[next]);
   say(std::string("view: ") + kDebugViewNames[next]);
 }
 
+void Session::chooseView(const std::string& name) {
+  parseValue(kViewOption, name, state_.view);
+  restSeconds_ = 0;
+}
+
+void Session::measure() {
+  state_.measures = !state_.measures;
+  restSeconds_ = 0;
+}
+
 void Session::playOrPause() {
-  Timeline& timeline = settings_.timeline;
+  Timeline& timeline = state_.timeline;
   if (timeline.there) {
     timeline.playing = !timeline.playing;
   } else if (scene().cameraPath.empty()) {
@@ -581,8 +760,8 @@ void Session::playOrPause() {
 void Session::forgetRays() {
   picked_.reset();
   queried_.reset();
-  rays_ = RayPick();
-  settings_.rays = RayView();
+  state_.rays = RayPick();
+  state_.selected = Selection();
 }
 
 void Session::jumpToNumber(std::size_t number) {
@@ -592,36 +771,39 @@ void Session::jumpToNumber(std::size_t number) {
     return;
   }
 
-  jump(whit::cameraAt(scene(), number, settings_.timeline.seconds));
-  followed_ = number;
+  jump(whit::cameraAt(scene(), number, state_.timeline.seconds));
+  state_.followed = number;
   say("camera " + cameras[number].name);
 }
 
 void Session::jump(const Camera& camera) {
   show(camera);
-  followed_.reset();
+  state_.followed.reset();
   pathTime_.reset();
   restSeconds_ = 0;
 }
 
-void Session::pick(int x, int y) {
-  if (!shown_.scene) return;
+void Session::pick(double x, double y) {
+  if (!state_.shown.scene) return;
 
   RayQuery query;
-  query.picture.camera = shown_.request.camera;
-  query.picture.options.size = windowPixels();
-  query.x = x;
-  query.y = y;
+  query.picture.camera = state_.shown.request.camera;
+  query.picture.options.size = windowSize_;
+  query.x = std::min(static_cast<int>(x), windowSize_.width - 1);
+  query.y = std::min(static_cast<int>(y), windowSize_.height - 1);
 
   // The answer also selects the surface and its strongest light in the scene's tab.
   picked_ = query;
-  settings_.rays.lines = true;
   selects_ = true;
+}
+
+void Session::lookFromAside() {
+  if (state_.rays.scene) jump(state_.rays.aside);
 }
 
 void Session::open(const std::string& name) {
   opening_ = name;
-  load({name, {}, {}}, "reading " + name);  // settings belong to the scene that has them
+  load({name, {}, {}, {}}, "reading " + name);  // settings belong to the scene that has them
 }
 
 }  // namespace whit::view

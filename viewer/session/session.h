@@ -17,6 +17,7 @@
 #include "viewer/session/frame_tracer.h"
 #include "viewer/session/render_thread.h"
 #include "viewer/session/resolution_control.h"
+#include "viewer/session/verbs.h"
 #include "viewer/session/view_files.h"
 
 namespace whit::view {
@@ -45,15 +46,9 @@ struct Drags {
   double wheel = 0;
 };
 
-// The view of the rays.
-struct RayView {
-  bool lines = true;                       // over the picture
-  std::size_t pointedAt = kNoCounterpart;  // the node under the pointer, whose line stands out
-  // The material that was hit and the light that adds most to it, which the scene's tab unfolds
-  // once; kNoCounterpart: none.
+// What a click on the picture selects in the scene; kNoCounterpart: nothing.
+struct Selection {
   std::size_t material = kNoCounterpart, light = kNoCounterpart;
-  bool fromAside = false;  // the camera is to see all rays
-  bool forget = false;     // the rays are to go
 };
 
 // The instant of a scene that moves: it plays by the clock, or the user sets it.
@@ -63,7 +58,6 @@ struct Timeline {
   bool playing = false;
   std::vector<std::string> animations;  // to choose from; empty where there is one only
   std::string animation;                // the animation that plays
-  bool another = false;                 // the animation was just chosen and is to be read
 
   // Goes on by that many seconds. Returns whether it was playing.
   bool step(double later);
@@ -74,114 +68,147 @@ struct Timeline {
 // otherwise playing from 0.
 Timeline timelineOf(const Scene& scene, const Instant& instant);
 
-// The settings that the panel and the keys change.
-struct PanelSettings : KeptSettings {
-  bool words = true;               // anything is written or drawn over the picture
-  bool supersample = true;         // at rest; scripts compare pictures without
-  std::optional<float> keepClear;  // a place across the window that the panel must not cover
-  std::string open;                // a scene to open
-  std::string tab;                 // the tab of kPanelTabs to turn to; empty: it stays
-  RenderOptions options;
-  DebugView view = DebugView::none;
-  bool measureKnobs = false;  // true until the measurement is done
-  RayView rays;
-  Timeline timeline;
-  bool saveScene = false;  // the scene is to be saved
-};
-
 // Returns whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
 // ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
 // empty where that is not known.
 std::string errorText(double sampleError);
-// "100 of 256 samples, within about 0.8 %": of a picture that gains samples.
-std::string samplesText(const UnfinishedFrame& frame);
 // "1/4, 16 samples": the share of the window's pixels a side, and the samples.
 std::string sharpnessText(const FrameRequest& request);
 
 // Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
 // it is left.
 bool clip(ScreenLine& line, double width, double height);
-// Lets the scene's tab unfold the material that was hit and the light that adds most.
-void select(const RayPick& pick, RayView& view);
+// Returns the material that was hit and the light that adds most.
+Selection select(const RayPick& pick);
+
+// What the window and the page show, and what the user has chosen.
+struct ViewState {
+  std::shared_ptr<const OpenScene> scene;  // the scene of the frame shown
+  std::string sceneName;                   // as on the command line
+  RenderOptions options;
+  DebugView view = DebugView::none;
+  bool measures = false;  // the costs of options are being measured
+  Timeline timeline;
+  std::optional<std::size_t> followed;  // the scene's camera whose view is shown
+  EditedScene edited;                   // with edits that are not traced yet
+  Sky ownSky;                           // of the scene as it was read
+
+  TracedFrame shown;
+  std::optional<UnfinishedFrame> unfinished;  // is shown in place of the frame
+  std::vector<KnobCost> costs;                // measured so far at the view of the last frame
+  double pictureMs = 0;  // mean time between pictures in motion; 0: nothing moves
+  bool sharp = false;    // the frame shown gets no finer
+  RayPick rays;          // of the pixel that was clicked
+  Selection selected;
+  int selections = 0;  // number of clicks that have selected something
+
+  std::string message;  // empty when its time is over
+  std::string error;    // stays until it is dismissed or a scene is read
+  int errors = 0;       // number of errors so far
+};
+
+// "1/4, 16 samples, 30 frames/s": what the picture has, and how often it changes.
+std::string statusText(const ViewState& state);
+// "whitted, 2 triangles ...; avx2, packets of 8, 4 threads".
+std::string aboutText(const TracedFrame& frame);
 
 class Session {
  public:
   // `onChange` is called on another thread whenever a frame, a scene or an error is to be fetched.
   Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
           std::function<void()> onChange);
-  virtual ~Session() = default;
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
- protected:
-  // The face shows an error, and has a picture of this size.
-  virtual void fail(const std::string& error) = 0;
-  virtual ImageSize windowPixels() const = 0;
-  virtual void opened() {}  // another scene is shown
+  const ViewState& state() const { return state_; }
+  static std::span<const Verb> verbs();
 
-  void say(const std::string& message);
+  // Does what the user asks for, as a message or in lines. Errors are shown.
+  void act(const Message& message);
+  void act(const std::string& lines);
+  void fail(const std::string& error);
+  void say(const std::string& message, double seconds = kMessageSeconds);
+
+  // The picture is shown in so many pixels, and in a window that is so high in the units of drags.
+  // So many units of a drag make one point.
+  void setWindow(const ImageSize& pixels, double height, double scale);
+  // At rest no more samples than asked for: scripts compare pictures.
+  void endSupersampling() { supersample_ = false; }
+  // Sets the most pixels of pictures in motion that a link is good for.
+  void limitPixels(double pixels) { resolution_.setMostPixels(pixels); }
+
   bool fetchFrame();  // returns whether there is something new to show
   // Moves on by that many seconds, and asks for the picture and the rays that are to be shown next.
-  void advance(const CameraMotion& motion, double seconds);
+  void advance(double seconds);
   bool isActive() const;  // something moves, or the picture is about to sharpen
+  bool isBusy() const { return thread_.busy(); }
+  bool isCommitted() const { return thread_.committed(); }  // no request is taken now
+  double rate() const { return resolution_.rate(); }
   // Returns whether the present view is shown at full resolution with the samples asked for.
   bool isComplete() const;
+  const Camera& camera() const { return control_.camera(); }
+  bool orbits() const { return control_.orbits(); }
   void holdStill();  // pauses the animation and the flight, so that the picture sharpens
 
-  // Adds what these drags ask for in a window of this height; `scale` pixels make one point.
-  CameraMotion motionOf(const Drags& drags, double height, double scale,
-                        CameraMotion motion = {}) const;
+  // Returns the command that makes the view shown; of one that is not sharp yet, as it will be.
+  std::string command() const;
+
+  // These are for users who may read and write files here.
+  void open(const std::string& name);
+  // Adds settings; `edited` is the scene with them.
+  void edit(const std::vector<std::string>& settings, const EditedScene& edited);
+  SavedScene saveScene();
+  bool hasUnsavedEdits() const { return state_.edited.settings != savedSettings_; }
+
+  static constexpr double kMessageSeconds = 4;
+
+ private:
+  // A state that undoing returns to.
+  struct Past {
+    std::vector<std::string> settings;
+    std::string givenSky;
+    RenderOptions options;
+    bool operator==(const Past&) const = default;
+  };
+
+  void drag(Drag& sum, const Message& message);
+  void hold(const Message& message);
+  CameraMotion takeMotion();
   void show(const Camera& camera);
   void jump(const Camera& camera);
   void jumpToNumber(std::size_t number);
-  void fitView(const ImageSize& window);
+  void fitView();
   void followCamera();
   void playOrPause();  // the animation, or else the flight along the camera path
+  void setTime(double seconds);
+  void chooseAnimation(const std::string& name);
   void expose(float step);
   void showNextView();
-  void pick(int x, int y);  // a pixel of the window
+  void chooseView(const std::string& name);
+  void changeOptions(const RenderOptions& options);
+  void chooseOption(const std::string& name, const std::string& value);
+  void chooseEffect(const std::string& name, bool on);
+  void choosePreset(const std::string& name);
+  void measure();
+  void pick(double x, double y);  // a pixel of the window
+  void lookFromAside();
   void forgetRays();
-  std::string command(const RenderOptions& options) const;
-  RenderOptions viewOptions() const;
-  void edit(const std::vector<std::string>& settings);
-  void undoEdit();
+  void undo();
+  void remember();
+  Past present() const { return {state_.edited.settings, state_.edited.givenSky, state_.options}; }
+  void takeBack();
   void watch(const std::string& scene);
   void load(const SceneChoice& choice, const std::string& message);
   void reload();
-  void changeAnimation();
-  void open(const std::string& name);
-  const Scene& scene() const { return scene_->scene; }
-
-  const ViewOptions& options_;
-  std::shared_ptr<const OpenScene> scene_;  // the scene of the frame shown
-  std::string sceneName_;                   // as on the command line
-  std::string opening_;                     // name of another scene while it is read
-  RenderThread thread_;
-  CameraControl control_;
-  ResolutionControl resolution_;
-  PanelSettings settings_;
-  TracedFrame shown_;
-  std::vector<KnobCost> costs_;                // measured so far at the view of the last frame
-  std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
-  double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
-  RayPick rays_;          // the last answer
-  EditedScene edited_;    // with edits that are not traced yet
-  std::vector<std::string> savedSettings_;  // that a file or the command line holds
-  std::optional<std::size_t> followed_;     // the scene's camera whose view is shown
-  Sky ownSky_;                              // of the scene as it was read
-  double restSeconds_ = 0;                  // time since something changed
-  bool sharp_ = false;                      // the frame shown gets no finer
-  std::optional<double> pathTime_;          // the time on the camera path that is flown
-  std::string message_, error_;
-  double messageSeconds_ = 0;  // time for which the message is still shown
-
- private:
+  const Scene& scene() const { return state_.scene->scene; }
+  RenderOptions viewOptions() const;
   void postEdit();
   bool moveCamera(const CameraMotion& motion, double seconds);
   bool play(double seconds);
   void flyPath(double seconds);
+  void learnTimes();
   void rememberCosts();
   void askForFrame();
   bool supersamples() const;
@@ -190,23 +217,43 @@ class Session {
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void followRays();
   void watchSceneFile();
-  void takeOptions(const Scene& last);
-  void takeScene();
+  void takeOptions(const Scene& last, bool elsewhere);
+  void takeScene(bool elsewhere);
 
-  FrameRequest measuredFor_;              // of costs_
-  std::optional<FrameRequest> stillFor_;  // the view that is being sharpened
+  const ViewOptions& options_;
+  ViewState state_;
+  RenderThread thread_;
+  CameraControl control_;
+  ResolutionControl resolution_;
+  bool supersample_ = true;
   ImageSize windowSize_;
+  double windowHeight_ = 1, dragScale_ = 1;
+  Drags drags_;
+  CameraMotion held_;
+  double heldSeconds_ = kHeldSeconds;  // time since `hold` was said
+  double restSeconds_ = 0;             // time since something changed
+  std::optional<double> pathTime_;     // the time on the camera path that is flown
+  double messageSeconds_ = 0;          // time for which the message is still shown
+
+  FrameRequest measuredFor_;              // of the costs
+  std::optional<FrameRequest> stillFor_;  // the view that is being sharpened
   Stopwatch sincePicture_;
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
+  bool selects_ = false;                      // the next answer selects a material and a light
+
+  std::string opening_;  // name of another scene while it is read
   int reloads_ = 0, edits_ = 0;
-  std::vector<std::string> readSettings_;  // with which the scene was read
-  bool selects_ = false;                   // the next answer selects a material and a light
-  std::vector<EditedScene> undo_;          // the settings before each edit
-  double sinceEdit_ = 0;                   // seconds
-  Box subject_;                            // of the scene
+  std::vector<std::string> readSettings_;   // with which the scene was read first
+  std::vector<std::string> savedSettings_;  // that a file or the command line holds
+  std::vector<Past> past_;                  // the present state is the last one
+  double sinceEdit_ = 0;                    // seconds
+  Box subject_;                             // of the scene
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
+
+  // Keys are let go if it is not repeated that they are held.
+  static constexpr double kHeldSeconds = 1;
 };
 
 }  // namespace whit::view

@@ -60,11 +60,14 @@ std::string freeName(const Name& name, const std::vector<const char*>& extension
   throwIo("'" + name(kLimit) + "' is taken: there are too many saved files in this folder");
 }
 
-std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
-                        const RenderOptions& usual) {
+std::string renderOf(const std::string& scene, const std::string& picture) {
+  return "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
+}
+
+// `text` is the command without options.
+std::string commandWith(std::string text, RenderOptions options, const RenderOptions& usual) {
   // The options that a preset sets are stated one by one.
   options.quality = usual.quality;
-  std::string text = "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
   forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
     const std::string name(spec.name), value = formatValue(spec, field);
     if (!spec.changesPicture || value == optionText(usual, name)) return;
@@ -167,15 +170,21 @@ std::string settingsFile() {
 
 }  // namespace
 
-std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
-                          const TracedFrame& frame, RenderOptions options) {
+std::string viewCommand(const std::string& scene, const cli::CommonOptions& common,
+                        const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
   // The metadata's options have "auto" resolved, which can choose other instructions.
   setCamera(shown, frame.request.camera, options);
   resetOwnSize(common.load, shown, options);
   RenderOptions usual;
   applySceneOptions(shown.options, {}, usual);
-  std::string text = commandWith(scene, shown.name, options, usual);
+
+  std::string text = renderOf(scene, shown.name);
+  if (const DebugView view = frame.request.view; view != DebugView::none) {
+    text = "whit-view " + quoted(scene) + " --view=" + entryOf(kDebugViewNames, view);
+  }
+  text = commandWith(text, options, usual);
+
   if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
   if (frame.request.seconds && !frame.animation.empty()) {
     text += " --animation " + quoted(frame.animation);
@@ -214,25 +223,27 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   writeTextFile(file, root.dump(2) + "\n");
   clearCamera(options);
   resetOwnSize(load, scene, options);
-  return {file,
-          commandWith(file, saved, options, stated) + (leavesFolder ? " --allow-outside" : "")};
+  return {file, commandWith(renderOf(file, saved), options, stated) +
+                    (leavesFolder ? " --allow-outside" : "")};
 }
 
 std::string savePicture(const TracedFrame& frame) {
   const cli::WriteScope scope;
   const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
   std::string name = freeName(nameOf, {".png", ".exr"});
+
   writeImage(name + ".png", frame.film, frame.metadata);
+  if (frame.debug) return name + ".png";
   writeImage(name + ".exr", frame.film, frame.metadata);
-  return name;
+  return name + ".png and .exr";
 }
 
 KeptSettings readKeptSettings() try {
   const std::string file = settingsFile();
   const Json json = parseJson(readTextFile(file, kSettingsBytesLimit), file);
   KeptSettings kept;
-  kept.shown = json.at("panel");
-  kept.tabShown = json.at("tab");
+  kept.panel = json.at("panel");
+  kept.tab = json.at("tab");
   kept.window = {json.at("window").at(0), json.at("window").at(1)};
   kept.recent = json.at("recent").get<std::vector<std::string>>();
   return kept;
@@ -241,8 +252,8 @@ KeptSettings readKeptSettings() try {
 }
 
 void writeKeptSettings(const KeptSettings& kept) try {
-  const Json json{{"panel", kept.shown},
-                  {"tab", kept.tabShown},
+  const Json json{{"panel", kept.panel},
+                  {"tab", kept.tab},
                   {"window", {kept.window.width, kept.window.height}},
                   {"recent", kept.recent}};
   const fs::path file = settingsFile();

@@ -8,10 +8,11 @@
 namespace whit::view {
 
 // Returns the command "whit render SCENE -o NAME.png ..." that makes a picture of the frame's scene
-// and view with these options, bit for bit. It only states what differs from the scene's defaults.
-// Words are quoted for a POSIX shell where needed.
-std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
-                          const TracedFrame& frame, RenderOptions options);
+// and view with these options, bit for bit; for a debug view "whit-view SCENE --view=NAME ...". It
+// only states what differs from the scene's defaults. Words are quoted for a POSIX shell where
+// needed.
+std::string viewCommand(const std::string& scene, const cli::CommonOptions& common,
+                        const TracedFrame& frame, RenderOptions options);
 
 struct SavedScene {
   std::string file;
@@ -26,14 +27,14 @@ struct SavedScene {
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const TracedFrame& frame,
                      const Camera& camera, RenderOptions options, const RenderOptions& chosen);
 
-// Writes NAME-NNNN.png and .exr into the current folder, with the first number that is free;
-// returns "NAME-NNNN". Throws Error(io).
+// Writes NAME-NNNN.png and .exr into the current folder, with the first number that is free; of a
+// debug view only the PNG. Returns "NAME-NNNN.png and .exr". Throws Error(io).
 std::string savePicture(const TracedFrame& frame);
 
 // Settings that stay from one run to the next, in whit/viewer.json below $XDG_CONFIG_HOME.
 struct KeptSettings {
-  bool shown = false;               // the panel is
-  std::string tabShown = "keys";    // of kPanelTabs
+  bool panel = false;               // is shown
+  std::string tab = "picture";      // of the panel
   ImageSize window;                 // zero: the user has not changed it
   std::vector<std::string> recent;  // names of scenes, the last one first
 };
