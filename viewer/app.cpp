@@ -28,9 +28,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Wi
   rememberRecent(options.scene, settings_.recent);
   settings_.tab = kept.tabShown;
 
-  if (message_.empty()) {
-    say("H: help. Drag to turn, Shift to pan, wheel to go forward, W A S D to walk");
-  }
+  say("H: help. Drag to turn, Shift to pan, wheel to go forward, W A S D to walk");
   messageSeconds_ = std::numeric_limits<double>::infinity();  // until a key or a click
 }
 
@@ -140,8 +138,9 @@ void App::draw() {
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
 
-  const bool says = settings_.words && messageSeconds_ > 0 && error_.empty();
-  if (says) drawMessage(message_);
+  const std::string text = notice();
+  const bool says = settings_.words && !text.empty() && error_.empty();
+  if (says) drawMessage(text);
   if (shown_.scene && settings_.words && (settings_.shown || shown_.debug)) {
     drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr,
                pictureMs_ > 0 ? 1000 / pictureMs_ : 0, says);

@@ -34,6 +34,7 @@ class App : public Session {
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
+  ImageSize pictureSize() const { return {scene().width, scene().height}; }  // that the scene has
   // Returns the settings as the user left them, with the window's size as it was read.
   const KeptSettings& kept() const { return settings_; }
 

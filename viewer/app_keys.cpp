@@ -124,7 +124,7 @@ void App::handleKey(int key) {
        [&] {
          savesPicture_ = true;
          holdStill();
-         say("the picture is saved as soon as it has full resolution and all samples");
+         say("the picture is saved as soon as it has full resolution and all samples; Esc: not");
        }},
       {GLFW_KEY_C, [&] { printView(); }},
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
@@ -146,6 +146,12 @@ void App::handleKey(int key) {
 void App::closeOrQuit() {
   if (!error_.empty()) {
     error_.clear();
+  } else if (reader_.busy()) {
+    reader_.giveUp();
+    opening_.clear();
+    say("the scene stays as it is");
+  } else if (std::exchange(savesPicture_, false)) {
+    say("the picture is not saved");
   } else if (listsCameras_) {
     listsCameras_ = false;
   } else if (settings_.shown) {

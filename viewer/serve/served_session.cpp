@@ -213,7 +213,7 @@ void ServedSession::step(double seconds) {
 
   resolution_.setMostPixels(mostPixels_);
   advance(motion, seconds);
-  if (changed_ || sharp_ != wasSharp_) publish();
+  if (changed_ || sharp_ != wasSharp_ || notice() != told_) publish();
 }
 
 void ServedSession::serve(const Message& message) {
@@ -329,6 +329,7 @@ void ServedSession::publish() {
   if (shown_.request.interruptible || sharp_) command_ = command(viewOptions());
 
   // The shot always holds the picture and the values that change with every picture.
+  told_ = notice();
   auto shot = std::make_shared<Shot>();
   shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
   shot->exact = wasSharp_ = sharp_;
@@ -380,7 +381,7 @@ Json ServedSession::liveJson() const {
 
   const view::Timeline& timeline = settings_.timeline;
   Json json{{"status", status},
-            {"message", messageSeconds_ > 0 ? message_ : ""},
+            {"message", told_},
             {"error", error_},
             {"sharp", sharp_},
             {"window", {size_.width, size_.height}},

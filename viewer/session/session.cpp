@@ -163,6 +163,7 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
                  std::function<void()> onChange)
     : options_(options),
       scene_(scene),
+      reader_(options.common),
       thread_(scene, options.common, std::move(onChange)),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
@@ -172,7 +173,6 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
       subject_(subjectOf(scene->scene)) {
   savedSettings_ = readSettings_;
   watch(options.scene);
-  say(lackOfLight(scene->scene));
 
   settings_.options = cli::optionsFor(scene->scene, options.common);
   settings_.view = options.view;
@@ -192,6 +192,15 @@ void Session::say(const std::string& message) {
   messageSeconds_ = kMessageSeconds;
 }
 
+std::string Session::notice() const {
+  const std::string message = messageSeconds_ > 0 ? message_ : "";
+  std::string text;
+  for (const std::string& part : {message, reader_.text(), thread_.progress(), shown_.dark}) {
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  }
+  return text;
+}
+
 void Session::advance(const CameraMotion& motion, double seconds) {
   const bool moved = moveCamera(motion, seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
@@ -203,7 +212,7 @@ void Session::advance(const CameraMotion& motion, double seconds) {
 }
 
 bool Session::isActive() const {
-  return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds;
+  return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds || reader_.busy();
 }
 
 bool Session::isComplete() const {
@@ -262,11 +271,10 @@ void Session::flyPath(double seconds) {
 }
 
 bool Session::fetchFrame() {
+  showReadScene();
   bool answered = false;
   const std::string error = thread_.takeError();
   if (!error.empty()) {
-    if (thread_.takeLoadFailure()) opening_.clear();
-
     // The options of the picture that is shown are known to work.
     if (shown_.scene) settings_.options = shown_.request.options;
     fail(error);
@@ -286,8 +294,13 @@ bool Session::fetchFrame() {
   if (!thread_.take(shown_)) return answered;
   unfinished_.reset();
   if (shown_.scene != scene_) {
-    const bool elsewhere = !opening_.empty();
-    takeScene();
+    // An edit, too, may have had the scene read again.
+    const bool came = shown_.scene == coming_, elsewhere = came && !opening_.empty();
+    if (came) {
+      coming_.reset();
+      undo_.clear();
+    }
+    takeScene(elsewhere);
     if (elsewhere) return false;  // the picture is from the camera of the other scene
   }
 
@@ -299,7 +312,7 @@ bool Session::fetchFrame() {
   if (request.edits == edits_) edited_ = *shown_.edited;
 
   // The cost of a sample decides the resolution of the next picture in motion.
-  if (request.view == settings_.view) {
+  if (request.view == viewToTrace(request.interruptible)) {
     resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.plain);
   }
   if (!request.plain) resolution_.setSampled(shown_.sampled);
@@ -329,7 +342,7 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   request.spp = sharpness.spp;
   // An automatic exposure is measured with all rays.
   request.plain = sharpness.plain && !settings_.options.exposure.automatic;
-  request.view = settings_.view;
+  request.view = viewToTrace(still);
   request.measureKnobs = still && sharpness.scale >= 1 && settings_.measureKnobs;
 
   request.reloads = reloads_;
@@ -337,6 +350,11 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   request.seconds = settings_.timeline.time();
   request.interruptible = still;
   return request;
+}
+
+// In motion the picture itself takes the place of its reference.
+DebugView Session::viewToTrace(bool still) const {
+  return still || !showsReference(settings_.view) ? settings_.view : DebugView::none;
 }
 
 // More samples would blur the values of a debug view and delay a measurement.
@@ -368,7 +386,7 @@ FrameRequest Session::stillRequest(const ImageSize& window) {
   // A step that is shown already is followed by the next one; after the last the picture is sharp.
   while (shown_.scene && samePicture(request, shown_.request)) {
     if (!resolution_.sharpen(supersamples())) {
-      sharp_ = !thread_.busy();
+      sharp_ = !thread_.busy() && !reader_.busy();
       break;
     }
     request = requestFor(resolution_.still(supersamples()), true);
@@ -436,6 +454,7 @@ void Session::undoEdit() {
 void Session::postEdit() {
   ++edits_;
   restSeconds_ = 0;
+  if (coming_) return;  // the scene that is shown is replaced
   thread_.edit({scene_, edited_.settings, edited_.givenSky});
 }
 
@@ -454,19 +473,32 @@ void Session::watchSceneFile() {
   reload();
 }
 
-void Session::load(const SceneChoice& choice, const std::string& message) {
-  ++reloads_;
-  restSeconds_ = 0;
+// The scene that is shown stays alive until the other one has been read.
+void Session::load(const SceneChoice& choice) {
   error_.clear();
-  undo_.clear();
-  thread_.load(choice);
-  say(message);
+  messageSeconds_ = 0;
+  reader_.read(choice, settings_.options);
+}
+
+void Session::showReadScene() {
+  try {
+    std::unique_ptr<Engine> scene = reader_.take();
+    if (!scene) return;
+
+    coming_ = scene->opened();
+    thread_.load(std::move(scene));
+    ++reloads_;
+    restSeconds_ = 0;
+  } catch (const std::exception& error) {
+    opening_.clear();
+    fail(error.what());
+  }
 }
 
 void Session::reload() {
   if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
   if (scene_->isMade) throwUsage("the scene was made by a program: it cannot be read again here");
-  load({sceneName_, readSettings_, settings_.timeline.animation}, "reading the scene again");
+  load({sceneName_, readSettings_, settings_.timeline.animation});
 }
 
 void Session::changeAnimation() {
@@ -476,29 +508,29 @@ void Session::changeAnimation() {
 
 // Takes the options of the scene that was just read where the user has not changed them. The
 // exposure for one scene says nothing about another.
-void Session::takeOptions(const Scene& last) {
+void Session::takeOptions(const Scene& last, bool elsewhere) {
   const RenderOptions before = cli::optionsFor(last, options_.common);
   const RenderOptions own = cli::optionsFor(scene(), options_.common);
   for (const std::string& name : sceneOptionNames()) {
-    const bool isKept = opening_.empty() || name != "exposure";
+    const bool isKept = !elsewhere || name != "exposure";
     if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
     setOption(settings_.options, name, optionText(own, name));
   }
 }
 
 // Called when the frame that was just fetched shows another scene, or the scene read again.
-void Session::takeScene() {
+void Session::takeScene(bool elsewhere) {
   const std::shared_ptr<const OpenScene> last = std::exchange(scene_, shown_.scene);
   const std::lock_guard lock(scene_->moving);
 
   // Edits do not outlive a scene, but the user's options do.
   edited_ = *shown_.edited;
-  if (!opening_.empty() || edited_.settings == readSettings_) ownSky_ = edited_.sky;
+  if (elsewhere || edited_.settings == readSettings_) ownSky_ = edited_.sky;
   subject_ = subjectOf(scene());
-  takeOptions(last->scene);
+  takeOptions(last->scene, elsewhere);
 
   // A scene that was read again keeps the camera and the time.
-  if (opening_.empty()) {
+  if (!elsewhere) {
     if (scene().cameraPath.empty()) pathTime_.reset();
     const Timeline before = settings_.timeline;
     settings_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
@@ -521,7 +553,7 @@ void Session::takeScene() {
 
   settings_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
-  say("opened " + sceneName_ + ". " + lackOfLight(scene()));
+  say("opened " + sceneName_);
   opened();
 }
 
@@ -562,7 +594,8 @@ void Session::showNextView() {
   const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
   settings_.view = static_cast<DebugView>(next);
   restSeconds_ = 0;
-  say(std::string("view: ") + kDebugViewNames[next]);
+  say(std::string("view: ") + kDebugViewNames[next] +
+      (showsReference(settings_.view) ? ", traced at rest" : ""));
 }
 
 void Session::playOrPause() {
@@ -621,7 +654,7 @@ void Session::pick(int x, int y) {
 
 void Session::open(const std::string& name) {
   opening_ = name;
-  load({name, {}, {}}, "reading " + name);  // settings belong to the scene that has them
+  load({name, {}, {}});  // settings belong to the scene that has them
 }
 
 }  // namespace whit::view

@@ -17,6 +17,7 @@
 #include "viewer/session/frame_tracer.h"
 #include "viewer/session/render_thread.h"
 #include "viewer/session/resolution_control.h"
+#include "viewer/session/scene_reader.h"
 #include "viewer/session/view_files.h"
 
 namespace whit::view {
@@ -30,7 +31,9 @@ struct ViewOptions {
 };
 void listViewOptions(cli::OptionList& list, ViewOptions& options);
 inline constexpr OptionSpec kViewOption{.name = "view",
-                                        .words = "none|depth|normals|albedo|rays|cost|occupancy"};
+                                        .words =
+                                            "none|depth|normals|albedo|rays|cost|occupancy|"
+                                            "reference|difference"};
 // Throws Error(usage) for options that a viewer cannot follow; the scene plays if it moves.
 void settleViewOptions(ViewOptions& options);
 
@@ -122,6 +125,8 @@ class Session {
   virtual void opened() {}  // another scene is shown
 
   void say(const std::string& message);
+  // The message, what is being read or traced, and why the picture is black; empty: nothing.
+  std::string notice() const;
   bool fetchFrame();  // returns whether there is something new to show
   // Moves on by that many seconds, and asks for the picture and the rays that are to be shown next.
   void advance(const CameraMotion& motion, double seconds);
@@ -148,7 +153,7 @@ class Session {
   void edit(const std::vector<std::string>& settings);
   void undoEdit();
   void watch(const std::string& scene);
-  void load(const SceneChoice& choice, const std::string& message);
+  void load(const SceneChoice& choice);
   void reload();
   void changeAnimation();
   void open(const std::string& name);
@@ -158,6 +163,7 @@ class Session {
   std::shared_ptr<const OpenScene> scene_;  // the scene of the frame shown
   std::string sceneName_;                   // as on the command line
   std::string opening_;                     // name of another scene while it is read
+  SceneReader reader_;
   RenderThread thread_;
   CameraControl control_;
   ResolutionControl resolution_;
@@ -185,13 +191,15 @@ class Session {
   void rememberCosts();
   void askForFrame();
   bool supersamples() const;
+  DebugView viewToTrace(bool still) const;
   FrameRequest movingRequest(const ImageSize& window);
   FrameRequest stillRequest(const ImageSize& window);
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void followRays();
   void watchSceneFile();
-  void takeOptions(const Scene& last);
-  void takeScene();
+  void showReadScene();
+  void takeOptions(const Scene& last, bool elsewhere);
+  void takeScene(bool elsewhere);
 
   FrameRequest measuredFor_;              // of costs_
   std::optional<FrameRequest> stillFor_;  // the view that is being sharpened
@@ -199,6 +207,7 @@ class Session {
   Stopwatch sincePicture_;
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
+  std::shared_ptr<const OpenScene> coming_;   // was read, and no frame shows it yet; or null
   int reloads_ = 0, edits_ = 0;
   std::vector<std::string> readSettings_;  // with which the scene was read
   bool selects_ = false;                   // the next answer selects a material and a light
