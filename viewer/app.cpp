@@ -162,8 +162,8 @@ float App::drawBottom(std::vector<std::string>& said) const {
   if (shown_.words) bottom = drawTimeline(state.timeline, bottom, said);
   if (!state.error.empty()) {
     bottom = drawError(state.error, bottom, said);
-  } else if (shown_.words && !state.message.empty()) {
-    bottom = drawMessage(state.message, bottom);
+  } else if (const std::string text = session_.notice(); shown_.words && !text.empty()) {
+    bottom = drawMessage(text, bottom);
   }
 
   const bool says = shown_.over == Over::panel || state.shown.debug;

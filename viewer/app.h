@@ -45,6 +45,10 @@ class App {
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
+  ImageSize pictureSize() const {  // that the scene has
+    const Scene& scene = session_.state().scene->scene;
+    return {scene.width, scene.height};
+  }
   // Returns the settings as the user left them, with the window's size as it was read.
   KeptSettings kept() const;
 

@@ -78,6 +78,10 @@ void App::turn(Over over) { shown_.over = shown_.over == over ? Over::nothing : 
 void App::close() {
   if (!session_.state().error.empty()) {
     session_.act("dismiss");
+  } else if (session_.isReading()) {
+    session_.giveUpReading();
+  } else if (std::exchange(savesPicture_, false)) {
+    session_.say("the picture is not saved");
   } else if (shown_.over != Over::nothing) {
     shown_.over = Over::nothing;
   } else if (session_.state().rays.scene) {
@@ -104,7 +108,8 @@ void App::savePicture() {
   savesPicture_ = !session_.isComplete();
   if (savesPicture_) {
     session_.holdStill();
-    session_.say("the picture is saved as soon as it has full resolution and all samples");
+    session_.say(
+        "the picture is saved as soon as it has full resolution and all samples; Esc: not");
     return;
   }
 

@@ -1,16 +1,12 @@
 // The command line of whit-view.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <future>
-#include <mutex>
 
 #include "command_line/help_text.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "output/open_and_warn.h"
 #include "viewer/app.h"
+#include "viewer/start_screen.h"
 
 namespace whit::view {
 
@@ -23,9 +19,10 @@ cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scen
   cli::OptionList list;
   list.group("Viewing");
   listViewOptions(list, options);
-  list.operands("SCENE",
-                "a scene file, a model, or the name of a shipped scene (default: the last one)", 0,
-                1, scenes);
+  list.operands(
+      "SCENE",
+      "a scene file, a model, or the name of a shipped scene (default: choose in the window)", 0, 1,
+      scenes);
   return list;
 }
 
@@ -36,23 +33,6 @@ ImageSize fitted(const ImageSize& picture, const ImageSize& room) {
   const auto scaled = [&](int side) { return std::max(static_cast<int>(side * scale), 1); };
   return {scaled(picture.width), scaled(picture.height)};
 }
-
-// Keeps the latest progress for the thread that draws the window.
-class LoadingProgress : public Progress {
- public:
-  void report(const std::string& phase, double fraction) override {
-    const std::lock_guard lock(mutex_);
-    text_ = formatted(": %s, %.0f %%", phase.c_str(), 100 * fraction);
-  }
-  std::string text() {
-    const std::lock_guard lock(mutex_);
-    return text_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::string text_;
-};
 
 const cli::ManPage kPage{"whit-view",
                          "flies through a scene that is ray traced as it is seen",
@@ -102,46 +82,21 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   if (!cli::parseOptions(kUsage, kSummary, list, words)) return 0;
   settleViewOptions(options);
 
-  // Without a scene on the command line the last one is opened again.
-  const KeptSettings kept = readKeptSettings();
-  if (scenes.empty()) scenes = kept.recent;
-  if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);
-  options.scene = scenes[0];
+  if (!scenes.empty()) options.scene = scenes[0];
 
   // The picture's size is known only when the scene has been read; until then the window has a
   // default size.
+  const KeptSettings kept = readKeptSettings();
   const Display display;
   const ImageSize room = Display::room(kept.window);
   const auto sizeFor = [&](const ImageSize& picture) {
     return options.common.render.size.value_or(fitted(picture, room));
   };
-  ImageSize opened = sizeFor({Scene().width, Scene().height});
-  Window window("whit: " + options.scene, opened);
-  LoadingProgress progress;
+  Window window("whit", sizeFor({Scene().width, Scene().height}));
 
-  // This thread draws the window until the other one has read the scene.
-  auto loading = std::async(std::launch::async, [&] {
-    const std::shared_ptr<OpenScene> scene = openAndWarn(options.scene, options.common, &progress);
-    opened = sizeFor({scene->scene.width, scene->scene.height});
-    progress.report("building the acceleration structure", 0);
-    auto app = std::make_unique<App>(options, scene, window, kept, scripted);
-    Window::wake();
-    return app;
-  });
-
-  while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    if (window.closing()) std::quick_exit(0);  // nothing has been written
-    window.begin();
-    drawMessage("reading " + options.scene + progress.text(),
-                static_cast<float>(window.size().height));
-    window.end();
-    window.present();
-
-    constexpr double kSecondsBetweenTexts = 0.1;
-    window.poll(kSecondsBetweenTexts);
-  }
-
-  const std::unique_ptr<App> app = loading.get();
+  const std::unique_ptr<App> app = start(options, window, kept, scripted);
+  if (!app) return 0;
+  const ImageSize opened = sizeFor(app->pictureSize());
   if (opened != window.size()) window.resize(opened);
   app->run();
 

@@ -165,9 +165,7 @@ class BoxBlock {
   BoxBlock moved(const Affine& map, double error) const {
     const Affine size = abs(map);
     BoxBlock to;
-    0;
-    i < kBoxes; ++i)=for (const auto i : indices(kBoxes))= 0;
-    i < kBoxes; ++i) {
+    for (const auto i : indices(kBoxes)) {
       const Box own = box(i);
       if (own.empty()) continue;
 

@@ -110,7 +110,9 @@ constexpr std::array<const char*, kDebugViewNames.size()> kAmounts{
     "",
     "rays a pixel and sample",
     "microseconds a pixel and sample",
-    "share of live lanes"};
+    "share of live lanes",
+    "",
+    ""};
 
 // A few pixels take tens of times what most do.
 bool isLogarithmic(DebugView view) { return view == DebugView::rays || view == DebugView::cost; }
@@ -208,6 +210,11 @@ FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, Debu
 }
 
 std::string DebugPicture::legend() const {
+  if (view == DebugView::difference) {
+    return formatted(
+        "8-bit codes off the reference, from 0 to %d (logarithmic); largest %.0f, mean %.2g",
+        kHeatCodes, largest, mean);
+  }
   const char* const amounts = entryOf(kAmounts, view);
   return *amounts == 0 ? "" : formatted("%s, from %.3g to %.3g", amounts, low, high);
 }
@@ -239,6 +246,9 @@ std::string DebugPicture::textOf(std::size_t number) const {
       return formatted("%.3g microseconds a sample", amount);
     case DebugView::occupancy:
       return formatted("%.1f %% of the lanes live", 100 * amount);
+    case DebugView::reference:
+    case DebugView::difference:
+      return formatted("%.0f codes off the reference, %.3g linear", mean.x, mean.y);
     case DebugView::none:
       break;
   }

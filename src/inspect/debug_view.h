@@ -10,9 +10,19 @@
 
 namespace whit {
 
-enum class DebugView { none, depth, normals, albedo, rays, cost, occupancy };
-inline constexpr std::array kDebugViewNames{"none", "depth", "normals",  "albedo",
-                                            "rays", "cost",  "occupancy"};
+enum class DebugView {
+  none,
+  depth,
+  normals,
+  albedo,
+  rays,
+  cost,
+  occupancy,
+  reference,  // these two come from watchReference() (reference_view.h)
+  difference
+};
+inline constexpr std::array kDebugViewNames{"none", "depth",     "normals",   "albedo",    "rays",
+                                            "cost", "occupancy", "reference", "difference"};
 
 struct WatchedPixel {
   Rgb sum{0, 0, 0};  // sum of `count` colors, or of amounts in x
@@ -23,7 +33,8 @@ struct DebugPicture {
   DebugView view = DebugView::none;
   int samples = 1;  // samples of each pixel
   std::vector<WatchedPixel> pixels;
-  double low = 0, high = 0;  // the amounts that have the first and the last color
+  double low = 0, high = 0;      // the amounts that have the first and the last color
+  double largest = 0, mean = 0;  // of the pixels' differences from the reference, in 8-bit codes
 
   // "rays a pixel and sample, from 1 to 23"; empty for views without a scale.
   std::string legend() const;
@@ -31,8 +42,8 @@ struct DebugPicture {
   std::string textOf(std::size_t pixel) const;
 };
 
-// Traces the frame with one worker, stores what `view` (not none) shows of the window's pixels, and
-// paints it into film.display. film.image is what render() makes of it.
+// Traces the frame with one worker, stores what `view` shows of the window's pixels, and paints it
+// into film.display. film.image is what render() makes of it.
 //   depth      distance along the primary ray, near ones bright; black: nothing hit
 //   normals    shading normals, (n + 1) / 2 a channel
 //   albedo     diffuse reflectance, textures included

@@ -61,19 +61,6 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
          std::log10(255.0 * 255.0 * static_cast<double>(values) / static_cast<double>(squares));
 }
 
-// Returns the largest difference of a channel for each pixel, in codes.
-std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
-  std::vector<std::uint8_t> differences(a.rgba.size() / 4);
-
-  for (const auto i : indices(differences)) {
-    int largest = 0;
-    for (const auto c : indices(3))
-      largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
-    differences[i] = static_cast<std::uint8_t>(largest);
-  }
-  return differences;
-}
-
 void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference& difference) {
   std::uint64_t one = 0, two = 0;
   const std::vector<std::uint8_t> codes = codeDifferences(a, b);
@@ -102,6 +89,18 @@ void checkComparable(const Image& a, const Image& b) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
+  std::vector<std::uint8_t> differences(a.rgba.size() / 4);
+
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    int largest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
+    differences[i] = static_cast<std::uint8_t>(largest);
+  }
+  return differences;
+}
 
 ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
   checkComparable(a, b);
@@ -164,20 +163,18 @@ std::array<std::uint8_t, 3> heatColor(double t) {
   return color;
 }
 
+std::array<std::uint8_t, 3> heatOfCodes(int codes) {
+  return heatColor(std::log2(1.0 + std::min(codes, kHeatCodes)) / std::log2(1.0 + kHeatCodes));
+}
+
 DisplayImage heatMap(const Image& a, const Image& b) {
-  constexpr int kLargest = 16;  // codes
   checkComparable(a, b);
 
   DisplayImage map = toDisplay(a, 0, ToneCurve::none);
   const std::vector<std::uint8_t> codes = codeDifferences(map, toDisplay(b, 0, ToneCurve::none));
 
-  std::array<std::array<std::uint8_t, 3>, kLargest + 1> colors{};
-  for (int code = 0; code <= kLargest; ++code) {
-    entryOf(colors, code) = heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
-  }
-
   for (const auto i : indices(codes)) {
-    std::ranges::copy(colors[std::min<std::size_t>(codes[i], kLargest)], &map.rgba[4 * i]);
+    std::ranges::copy(heatOfCodes(codes[i]), &map.rgba[4 * i]);
   }
   return map;
 }

@@ -28,9 +28,14 @@ struct ImageDifference {
 ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
                               ToneCurve curve = ToneCurve::none);
 
-// Paints the difference of each pixel in codes with heatColor() on a logarithmic scale from 0 to 16
-// codes; larger differences have the last color.
+// Returns the largest difference of a channel for each pixel, in codes.
+std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b);
+// Paints the difference of each pixel with heatOfCodes().
 DisplayImage heatMap(const Image& a, const Image& b);
+// Returns the color of a difference in codes, on a logarithmic scale from 0 to kHeatCodes; larger
+// differences have the last color.
+std::array<std::uint8_t, 3> heatOfCodes(int codes);
+inline constexpr int kHeatCodes = 16;
 // Returns the 8-bit sRGB color at t in [0, 1]: from black over violet and orange to light yellow,
 // with a lightness that grows all the way.
 std::array<std::uint8_t, 3> heatColor(double t);

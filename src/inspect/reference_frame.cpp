@@ -30,7 +30,8 @@ FrameStats renderReference(Renderer& renderer, const Camera& camera, Film& film,
 
   film.channels.resize(renderer.plan().channels, film.image.pixels.size());
   if (!renderer.plan().channels.empty()) {
-    reference::keepChannels(scene, intersector, camera, settings, film.image, film.channels);
+    reference::keepChannels(scene, intersector, camera, settings, film.image, film.channels,
+                            progress);
     poolErrors(film);
   }
 

@@ -162,6 +162,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
 // of the rays through the sample nearest to the center of each pixel, or through the center itself
 // with adaptive sampling.
 void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
-                  const Settings& settings, const Image& image, ChannelLayers& layers);
+                  const Settings& settings, const Image& image, ChannelLayers& layers,
+                  Progress* progress = nullptr);
 
 }  // namespace whit::reference

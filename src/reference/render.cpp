@@ -192,14 +192,15 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
 }
 
 void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
-                  const Settings& settings, const Image& image, ChannelLayers& layers) {
+                  const Settings& settings, const Image& image, ChannelLayers& layers,
+                  Progress* progress) {
   const Tracer tracer(scene, intersector, settings);
   const int spp = tracer.samplesAdaptively() ? 1 : settings.options.spp;
   const CameraFrame frame =
       frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height, spp);
   const std::vector<Vec2f> samples = samplePattern(spp);
   const std::size_t number = nearestToCenter(samples);
-  forEachPixel(image.window, settings.threads, nullptr, [&](int x, int y, RayCounts&) {
+  forEachPixel(image.window, settings.threads, progress, [&](int x, int y, RayCounts&) {
     const std::size_t pixel = image.index(x, y);
     layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
     if (layers.channels().has(Channel::alpha)) {

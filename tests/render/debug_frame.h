@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "inspect/debug_view.h"
+#include "inspect/reference_view.h"
 
 namespace whit::test {
 
@@ -17,7 +17,12 @@ struct DebugFrame {
 inline DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film,
                                   DebugView view) {
   DebugFrame frame;
-  frame.stats = watchFrame(renderer, camera, film, view, frame.picture);
+  if (showsReference(view)) {
+    std::optional<Film> reference;
+    frame.stats = watchReference(renderer, camera, film, view, reference, frame.picture, {});
+  } else {
+    frame.stats = watchFrame(renderer, camera, film, view, frame.picture);
+  }
   frame.legend = frame.picture.legend();
   return frame;
 }

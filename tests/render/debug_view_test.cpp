@@ -1,9 +1,11 @@
 // Debug views of scenes whose every pixel is known.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "core/display.h"
+#include "inspect/metrics.h"
 #include "render/debug_frame.h"
 #include "shipped_scene.h"
 
@@ -110,6 +112,43 @@ TEST(DebugView, FullPacketsAreBright) {
   // One ray fills an eighth of its packet.
   const Code alone = view(wall(), DebugView::occupancy, options).code(0, 0);
   EXPECT_LT(alone[0] + alone[1] + alone[2], 128);
+}
+
+// The reference is given: it has other codes than the packets at three of the 15 pixels.
+TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
+  RenderOptions options = smallOptions();
+  options.size = {5, 3};
+  const Scene scene = wall();
+  Renderer renderer(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  Film film = makeFilm(scene, options);
+  renderer.render(camera, film);
+
+  std::optional<Film> reference = film;
+  const auto darken = [&](std::size_t pixel, int codes) {
+    reference->display.rgba[4 * pixel + 1] -= static_cast<std::uint8_t>(codes);
+  };
+  darken(0, 1);
+  darken(1, 3);
+  darken(2, 41);
+  reference->image.pixels[1].y += 0.25f;
+
+  DebugPicture picture;
+  watchReference(renderer, camera, film, DebugView::difference, reference, picture, {});
+  EXPECT_EQ(picture.largest, 41);
+  EXPECT_DOUBLE_EQ(picture.mean, 3);  // 45 / 15
+  EXPECT_EQ(picture.legend(),
+            "8-bit codes off the reference, from 0 to 16 (logarithmic); largest 41, mean 3");
+  EXPECT_EQ(picture.textOf(1), "3 codes off the reference, 0.25 linear");
+
+  const auto colorOf = [&](std::size_t pixel) {
+    const std::uint8_t* const code = &film.display.rgba[4 * pixel];
+    return std::array<std::uint8_t, 3>{code[0], code[1], code[2]};
+  };
+  EXPECT_EQ(colorOf(0), heatColor(std::log2(2.0) / std::log2(17.0)));
+  EXPECT_EQ(colorOf(1), heatColor(std::log2(4.0) / std::log2(17.0)));
+  EXPECT_EQ(colorOf(2), heatColor(1));
+  EXPECT_EQ(colorOf(3), heatColor(0));
 }
 
 TEST(DebugView, ThePictureItselfIsAsEver) {

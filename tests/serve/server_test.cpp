@@ -330,6 +330,8 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
                       {"effect shadows 0", "/command", "--disable=shadows"},
                       {"preset good", "/options/spp", "16"},
                       {"view depth", "/view", "depth"},
+                      {"view reference", "/view", "reference"},
+                      {"view difference", "/legend", "largest"},
                       {"measure", "/measured", nullptr},
                       {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 namespace whit::view {
 namespace {
@@ -19,7 +19,7 @@ class Sessions : public testing::Test {
     options_.common.render.threads = 2;
     options_.scene = cli::writeTinyScene(folder_);
     session_ = std::make_unique<Session>(
-        options_, openAndTell(options_.scene, options_.common, nullptr), [] {});
+        options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
     session_->setWindow({48, 32}, 32, 1);
     session_->endSupersampling();
     settle();

@@ -161,18 +161,6 @@ TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
   EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // kept for a larger screen
 }
 
-TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
-  // Without settings there is no last scene yet.
-  EXPECT_EQ(runOn(display_.name(), folder_.path().string(), {WHIT_VIEW_PROGRAM}).status, 2);
-  play("wait sharp\n");
-
-  std::ofstream(folder_ / "script.txt") << "wait sharp\nkey C\n";
-  const cli::Outcome outcome =
-      runOn(display_.name(), folder_.path().string(),
-            {WHIT_VIEW_SCRIPT_PROGRAM, "--size", "48x32", "--script", "script.txt"});
-  EXPECT_NE(outcome.out.find("/tiny.json -o tiny.png"), std::string::npos) << outcome.out;
-}
-
 // A pixel is clicked on at the left: the panel is at its right. Another one is in the middle, where
 // neither side has room: the panel is above.
 TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {

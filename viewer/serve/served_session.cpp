@@ -185,7 +185,7 @@ void ServedSession::step(double seconds) {
 
   session_.limitPixels(mostPixels_);
   session_.advance(seconds);
-  if (changed_ || state.sharp != wasSharp_) publish();
+  if (changed_ || state.sharp != wasSharp_ || session_.notice() != told_) publish();
 }
 
 void ServedSession::serve(const Message& message) {
@@ -231,6 +231,7 @@ void ServedSession::publish() {
   if (rests) command_ = session_.command();
 
   // The shot always holds the picture and the values that change with every picture.
+  told_ = session_.notice();
   auto shot = std::make_shared<Shot>();
   shot->picture = state.unfinished ? state.unfinished->display : state.shown.film.display;
   shot->exact = wasSharp_ = state.sharp;
@@ -289,7 +290,7 @@ Json ServedSession::liveJson() const {
   const FrameStats& stats = state.shown.stats;
   const view::Timeline& timeline = state.timeline;
   Json json{{"status", view::statusText(state)},
-            {"message", state.message},
+            {"message", told_},
             {"error", state.error},
             {"sharp", state.sharp},
             {"window", {size_.width, size_.height}},

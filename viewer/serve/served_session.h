@@ -84,6 +84,7 @@ class ServedSession {
   bool changed_ = true;  // there is something to show
   bool said_ = false;    // the user has done something since the last shot
   bool wasSharp_ = false;
+  std::string told_;     // the notice of the last shot
   std::string command_;  // makes the picture at rest
 
   std::mutex mutex_;  // guards all that follows

@@ -5,7 +5,6 @@
 #include "command_line/progress_bar.h"
 #include "core/option_table.h"
 #include "output/frame_summary.h"
-#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::view {
@@ -51,28 +50,14 @@ bool hasSampledRays(const RenderOptions& options) {
 }
 
 FrameTracer::FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common)
-    : common_(common),
-      engine_(std::make_unique<Engine>(std::move(scene))),
-      animation_(common.load.instant.animation) {
+    : engine_(std::make_unique<Engine>(std::move(scene))) {
   engine_->setOptions(common.render, common.given);
   engine_->prepare();
 }
 
-void FrameTracer::load(const SceneChoice& choice) {
-  cli::CommonOptions common = common_;
-  common.load.settings = choice.settings;
-  common.load.instant.animation = choice.animation;
-  if (choice.sky) {
-    common.load.sky = *choice.sky;
-    common.load.allowOutside = true;  // the user chose the file of the sky
-  }
-  auto next = std::make_unique<Engine>(openAndWarn(choice.name, common, nullptr));
-  next->setOptions(engine_->options());
-  next->prepare();
-
-  engine_ = std::move(next);
+void FrameTracer::load(std::unique_ptr<Engine> scene) {
+  engine_ = std::move(scene);
   edited_.reset();
-  animation_ = choice.animation;
 }
 
 void FrameTracer::edit(const SceneEdit& edit) {
@@ -124,6 +109,8 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   RenderOptions options = request.options;
   options.spp = request.spp;
   if (request.plain) copySampledRays(RenderOptions(), options);
+  // The command of the picture then makes the reference, too.
+  if (request.view == DebugView::reference) options.mode = Mode::reference;
   engine_->setOptions(options);
   engine_->prepare();
 
@@ -147,13 +134,14 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   frame.request.options.exposure = engine_->options().exposure;
   frame.options = engine_->options();
   copySampledRays(request.options, frame.options);
-  frame.animation = animation_;
+  frame.animation = open->load.instant.animation;
   frame.warning = std::exchange(warning_, "");
 
   frame.surfaces = surfacesText(scene.instancedTriangles, scene.instancedSpheres);
   frame.effects = renderer.plan().effects;
   frame.sampled = renderer.plan().features.has(Feature::streams);
   frame.reasons = scene.reasons;
+  frame.dark = lackOfLight(scene);
   frame.machine = renderer.machine();
 
   if (!edited_) edited_ = std::make_shared<const EditedScene>(editedScene(*open));
@@ -204,8 +192,11 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
 bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
                               const TraceCalls& calls) {
   const FrameHooks hooks{calls.stopped, nullptr};
+  if (!showsReference(request.view)) reference_.reset();
 
-  if (request.view == DebugView::none) {
+  if (showsReference(request.view)) {
+    traceReference(request, frame, calls);
+  } else if (request.view == DebugView::none) {
     frame.stats =
         engine_->renderer().render({.camera = request.camera, .film = frame.film, .hooks = &hooks});
   } else {
@@ -215,6 +206,20 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
     frame.debug = debug;
   }
   return !calls.stopped();
+}
+
+void FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame,
+                                 const TraceCalls& calls) {
+  FrameRequest picture = request;
+  picture.view = DebugView::none;
+  if (!referenceFor_ || !samePicture(picture, *referenceFor_)) reference_.reset();
+  referenceFor_ = picture;
+
+  const FrameHooks hooks{calls.stopped, nullptr};
+  const auto debug = std::make_shared<DebugPicture>();
+  frame.stats = watchReference(engine_->renderer(), request.camera, frame.film, request.view,
+                               reference_, *debug, hooks, calls.progress);
+  frame.debug = debug;
 }
 
 bool FrameTracer::accumulates(const FrameRequest& request) const {

@@ -12,12 +12,13 @@
 #include "accuracy/timing.h"
 #include "command_line/parse_options.h"
 #include "engine/engine.h"
-#include "inspect/debug_view.h"
 #include "inspect/ray_tree.h"
+#include "inspect/reference_view.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
 #include "output/explained_rays.h"
 #include "viewer/session/scene_edit.h"
+#include "viewer/session/scene_reader.h"
 
 namespace whit::view {
 
@@ -56,13 +57,6 @@ using MeasureCall = std::function<bool(const std::vector<KnobCost>& sofar, doubl
 // false if `goesOn` ended the measurement.
 bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera& camera,
                   Film& film, double scale, const MeasureCall& goesOn);
-
-struct SceneChoice {
-  std::string name;
-  std::vector<std::string> settings;
-  std::string animation;                // empty: the first one
-  std::optional<std::string> sky = {};  // of a scene that is read again with its edits
-};
 
 struct FrameRequest {
   Camera camera;
@@ -118,6 +112,7 @@ struct TracedFrame {
   ImageMetadata metadata;
   EffectSet effects;                               // the effects that were traced
   bool sampled = false;                            // rays were drawn at random
+  std::string dark;                                // lackOfLight()
   double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
   std::array<EffectReason, kEffectCount> reasons;  // copied, because edits change the scene's own
   std::shared_ptr<const EditedScene> edited;       // copied as well: the scene after its edits
@@ -176,6 +171,7 @@ struct TraceCalls {
   // Called between passes, once the picture has more samples than the finished one of the same
   // view.
   std::function<void(UnfinishedFrame)> showUnfinished;
+  Progress* progress = nullptr;  // of the scalar reference
 };
 
 // Makes the pictures that requests ask for. It belongs to one thread.
@@ -184,8 +180,8 @@ class FrameTracer {
   // Builds the renderer; throws as Renderer does.
   FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common);
 
-  // Reads a scene; the old one stays when that fails.
-  void load(const SceneChoice& choice);
+  // Shows another scene from now on.
+  void load(std::unique_ptr<Engine> scene);
   // Edits the scene; does nothing if another scene was loaded since. If it throws, the scene is
   // unchanged.
   void edit(const SceneEdit& edit);
@@ -203,18 +199,20 @@ class FrameTracer {
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // Traces the picture as one frame.
   bool traceAtOnce(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
+  // Traces the picture and its reference, which stays for the other view of the same picture.
+  void traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // Returns whether the picture is traced in passes, each with some of the samples of every pixel:
   // at rest, if rays are sampled.
   bool accumulates(const FrameRequest& request) const;
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
-  const cli::CommonOptions common_;
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
-  std::string animation_;                      // the animation that the scene was read with
   std::string warning_;                        // of edits, until a picture tells it
   Film band_;                                  // the film of measure()
+  std::optional<Film> reference_;              // empty: not traced, or given up
+  std::optional<FrameRequest> referenceFor_;   // the picture of reference_, without its view
   std::optional<FrameRequest> finished_;       // the last picture that was not given up
   double msPerSample_ = 0;  // of the last picture that was not plain; 0: none yet
 };

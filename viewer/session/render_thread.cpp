@@ -50,9 +50,9 @@ bool RenderThread::ask(const FrameRequest& request) {
   return taken;
 }
 
-void RenderThread::load(const SceneChoice& scene) {
+void RenderThread::load(std::unique_ptr<Engine> scene) {
   post([&] {
-    scene_ = scene;
+    scene_ = std::move(scene);
     edit_.reset();
   });
 }
@@ -90,19 +90,18 @@ void RenderThread::loop() {
     wake_.wait(lock, [this] { return hasWork() || quit_; });
     if (quit_) return;
 
-    const bool loads = scene_.has_value();
     try {
       serve(lock);
     } catch (const std::exception& error) {
       // The work may have failed while the lock was released.
       if (!lock.owns_lock()) lock.lock();
-      loadFailed_ |= loads && !scene_;  // another one may be waiting
       tracing_.reset();
       unfinished_.reset();
       error_ = error.what();
     }
 
     lock.unlock();
+    progress_.clear();
     onChange_();
     lock.lock();
   }
@@ -116,8 +115,8 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
   };
 
   // Changes of the scene come before queries and pictures, which then are of the new state.
-  if (const auto scene = std::exchange(scene_, std::nullopt)) {
-    unlocked([&] { tracer_.load(*scene); });
+  if (auto scene = std::move(scene_)) {
+    unlocked([&] { tracer_.load(std::move(scene)); });
   } else if (const auto edit = std::exchange(edit_, std::nullopt)) {
     unlocked([&] { tracer_.edit(*edit); });
   } else if (query_) {
@@ -141,6 +140,7 @@ TraceCalls RenderThread::calls() {
   calls.superseded = locked([this] { return isWaiting() || quit_; });
   calls.stopped = locked([this] { return quit_ || (!isCommitted() && hasWork()); });
   calls.answer = [this] { answerQuery(); };
+  calls.progress = &progress_;
 
   calls.publish = [this](const TracedFrame& frame) {
     TracedFrame copy = frame;

@@ -30,8 +30,8 @@ class RenderThread {
   // Replaces the request that was not begun yet. Returns false while a picture is traced that
   // nothing stops, or waits to be taken; `onChange` tells when to ask again.
   bool ask(const FrameRequest& request);
-  // Reads a scene before the next frame; the old one stays when that fails.
-  void load(const SceneChoice& scene);
+  // Shows another scene from the next frame on.
+  void load(std::unique_ptr<Engine> scene);
   // Edits the scene before the next frame, after the edits that wait; does nothing when the scene
   // is another one by then.
   void edit(const SceneEdit& edit);
@@ -45,8 +45,8 @@ class RenderThread {
   // The samples so far of the picture that is being traced; null if there are no new ones.
   std::optional<UnfinishedFrame> takeUnfinished() { return taken(unfinished_); }
   std::string takeError() { return taken(error_); }  // empty: none
-  // Returns whether a scene could not be read since the last call.
-  bool takeLoadFailure() { return taken(loadFailed_); }
+  // The progress of a reference that is being traced; empty: none is.
+  std::string progress() const { return progress_.text(); }
   bool busy() const;       // tracing, or about to
   bool committed() const;  // tracing a picture that nothing stops
 
@@ -73,11 +73,12 @@ class RenderThread {
   const std::function<void()> onChange_;
   FrameTracer tracer_;  // the tracing thread's own, as is the next
   TracedFrame back_;
+  LatestProgress progress_;
 
   mutable std::mutex mutex_;  // guards all that follows
   std::condition_variable wake_;
   // Requests of the window; each is handed to the tracing thread once, in this order.
-  std::optional<SceneChoice> scene_;
+  std::unique_ptr<Engine> scene_;
   std::optional<SceneEdit> edit_;
   std::optional<RayQuery> query_;
   std::optional<FrameRequest> asked_;
@@ -87,7 +88,6 @@ class RenderThread {
   std::optional<UnfinishedFrame> unfinished_;
   TracedFrame ready_;
   std::string error_;
-  bool loadFailed_ = false;
   bool fresh_ = false;  // ready_ is still to be taken
   bool busy_ = false, quit_ = false;
   std::thread thread_;

@@ -176,6 +176,7 @@ Selection select(const RayPick& pick) {
 Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                  std::function<void()> onChange)
     : options_(options),
+      reader_(options.common),
       thread_(scene, options.common, std::move(onChange)),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
@@ -185,7 +186,6 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
   state_.ownSky = state_.edited.sky;
   savedSettings_ = readSettings_ = state_.edited.settings;
   watch(options.scene);
-  say(noLightWarning(scene->scene));
 
   state_.options = cli::optionsFor(scene->scene, options.common);
   state_.view = options.view;
@@ -231,6 +231,16 @@ void Session::setWindow(const ImageSize& pixels, double height, double scale) {
   if (std::exchange(windowSize_, pixels) != pixels) restSeconds_ = 0;
 }
 
+// The message, what is being read or traced, and why the picture is black; empty: nothing.
+std::string Session::notice() const {
+  std::string text;
+  for (const std::string& part :
+       {state_.message, reader_.text(), thread_.progress(), state_.shown.dark}) {
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  }
+  return text;
+}
+
 void Session::advance(double seconds) {
   heldSeconds_ += seconds;
   const bool moved = moveCamera(takeMotion(), seconds), played = play(seconds);
@@ -245,7 +255,7 @@ void Session::advance(double seconds) {
 
 bool Session::isActive() const {
   return pathTime_ || state_.timeline.playing || restSeconds_ < kSettleSeconds ||
-         heldSeconds_ < kHeldSeconds;
+         heldSeconds_ < kHeldSeconds || reader_.busy();
 }
 
 bool Session::isComplete() const {
@@ -327,11 +337,10 @@ void Session::flyPath(double seconds) {
 }
 
 bool Session::fetchFrame() {
+  showReadScene();
   bool answered = false;
   const std::string error = thread_.takeError();
   if (!error.empty()) {
-    if (thread_.takeLoadFailure()) opening_.clear();
-
     // The options of the picture that is shown are known to work.
     if (state_.shown.scene) {
       const auto size = state_.options.size;
@@ -359,8 +368,9 @@ bool Session::fetchFrame() {
   if (!thread_.take(state_.shown)) return answered;
   state_.unfinished.reset();
   if (state_.shown.scene != state_.scene) {
-    // A picture that was asked for earlier may show the old scene, read again.
-    const bool elsewhere = !opening_.empty() && state_.shown.request.reloads == reloads_;
+    // An edit, too, may have had the scene read again.
+    const bool came = state_.shown.scene == coming_, elsewhere = came && !opening_.empty();
+    if (came) coming_.reset();
     takeScene(elsewhere);
     if (elsewhere) return false;  // the picture is from the camera of the other scene
   }
@@ -391,7 +401,7 @@ bool Session::fetchFrame() {
 void Session::learnTimes() {
   // The cost of a sample decides the resolution of the next picture in motion.
   const FrameRequest& request = state_.shown.request;
-  if (request.view == state_.view) {
+  if (request.view == viewToTrace(request.interruptible)) {
     resolution_.learn(state_.shown.stats.frameMs, samplesOf(request), request.plain);
   }
   if (!request.plain) resolution_.setSampled(state_.shown.sampled);
@@ -421,7 +431,7 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   request.spp = sharpness.spp;
   // An automatic exposure is measured with all rays.
   request.plain = sharpness.plain && !state_.options.exposure.automatic;
-  request.view = state_.view;
+  request.view = viewToTrace(still);
   request.measureKnobs = still && sharpness.scale >= 1 && state_.measures;
 
   request.reloads = reloads_;
@@ -429,6 +439,11 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   request.seconds = state_.timeline.time();
   request.interruptible = still;
   return request;
+}
+
+// In motion the picture itself takes the place of its reference.
+DebugView Session::viewToTrace(bool still) const {
+  return still || !showsReference(state_.view) ? state_.view : DebugView::none;
 }
 
 // More samples would blur the values of a debug view and delay a measurement.
@@ -460,7 +475,7 @@ FrameRequest Session::stillRequest(const ImageSize& window) {
   // A step that is shown already is followed by the next one; after the last the picture is sharp.
   while (state_.shown.scene && samePicture(request, state_.shown.request)) {
     if (!resolution_.sharpen(supersamples())) {
-      state_.sharp = !thread_.busy();
+      state_.sharp = !thread_.busy() && !reader_.busy();
       break;
     }
     request = requestFor(resolution_.still(supersamples()), true);
@@ -544,6 +559,7 @@ void Session::undo() {
 void Session::postEdit() {
   ++edits_;
   restSeconds_ = 0;
+  if (coming_) return;  // the scene that is shown is replaced
   thread_.edit({state_.scene, state_.edited.settings, state_.edited.givenSky});
 }
 
@@ -561,12 +577,32 @@ void Session::watchSceneFile() {
   reload();
 }
 
-void Session::load(const SceneChoice& choice, const std::string& message) {
-  ++reloads_;
-  restSeconds_ = 0;
+// The scene that is shown stays alive until the other one has been read.
+void Session::load(const SceneChoice& choice) {
   state_.error.clear();
-  thread_.load(choice);
-  say(message);
+  state_.message.clear();
+  reader_.read(choice, state_.options);
+}
+
+void Session::giveUpReading() {
+  reader_.giveUp();
+  opening_.clear();
+  say("the scene stays as it is");
+}
+
+void Session::showReadScene() {
+  try {
+    std::unique_ptr<Engine> scene = reader_.take();
+    if (!scene) return;
+
+    coming_ = scene->opened();
+    thread_.load(std::move(scene));
+    ++reloads_;
+    restSeconds_ = 0;
+  } catch (const std::exception& error) {
+    opening_.clear();
+    fail(error.what());
+  }
 }
 
 void Session::reload() {
@@ -574,9 +610,8 @@ void Session::reload() {
   if (state_.scene->isMade)
     throwUsage("the scene was made by a program: it cannot be read again here");
   // Edits stay.
-  load(
-      {state_.sceneName, state_.edited.settings, state_.timeline.animation, state_.edited.givenSky},
-      "reading the scene again");
+  load({state_.sceneName, state_.edited.settings, state_.timeline.animation,
+        state_.edited.givenSky});
 }
 
 void Session::setTime(double seconds) {
@@ -647,7 +682,7 @@ void Session::takeScene(bool elsewhere) {
 
   state_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
-  say("opened " + state_.sceneName + ". " + noLightWarning(scene()));
+  say("opened " + state_.sceneName);
 }
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
@@ -731,7 +766,8 @@ void Session::expose(float step) {
 void Session::showNextView() {
   const std::size_t next = (static_cast<std::size_t>(state_.view) + 1) % kDebugViewNames.size();
   chooseView(kDebugViewNames[next]);
-  say(std::string("view: ") + kDebugViewNames[next]);
+  say(std::string("view: ") + kDebugViewNames[next] +
+      (showsReference(state_.view) ? ", traced at rest" : ""));
 }
 
 void Session::chooseView(const std::string& name) {
@@ -803,7 +839,7 @@ void Session::lookFromAside() {
 
 void Session::open(const std::string& name) {
   opening_ = name;
-  load({name, {}, {}, {}}, "reading " + name);  // settings belong to the scene that has them
+  load({name, {}, {}, {}});  // settings belong to the scene that has them
 }
 
 }  // namespace whit::view

@@ -17,6 +17,7 @@
 #include "viewer/session/frame_tracer.h"
 #include "viewer/session/render_thread.h"
 #include "viewer/session/resolution_control.h"
+#include "viewer/session/scene_reader.h"
 #include "viewer/session/verbs.h"
 #include "viewer/session/view_files.h"
 
@@ -31,7 +32,9 @@ struct ViewOptions {
 };
 void listViewOptions(cli::OptionList& list, ViewOptions& options);
 inline constexpr OptionSpec kViewOption{.name = "view",
-                                        .words = "none|depth|normals|albedo|rays|cost|occupancy"};
+                                        .words =
+                                            "none|depth|normals|albedo|rays|cost|occupancy|"
+                                            "reference|difference"};
 // Throws Error(usage) for options that a viewer cannot follow; the scene plays if it moves.
 void settleViewOptions(ViewOptions& options);
 
@@ -130,6 +133,10 @@ class Session {
   void act(const std::string& lines);
   void fail(const std::string& error);
   void say(const std::string& message, double seconds = kMessageSeconds);
+  // The message, what is being read or traced, and why the picture is black; empty: nothing.
+  std::string notice() const;
+  bool isReading() const { return reader_.busy(); }
+  void giveUpReading();  // the scene stays as it is
 
   // The picture is shown in so many pixels, and in a window that is so high in the units of drags.
   // So many units of a drag make one point.
@@ -200,7 +207,7 @@ class Session {
   Past present() const { return {state_.edited.settings, state_.edited.givenSky, state_.options}; }
   void takeBack();
   void watch(const std::string& scene);
-  void load(const SceneChoice& choice, const std::string& message);
+  void load(const SceneChoice& choice);
   void reload();
   const Scene& scene() const { return state_.scene->scene; }
   RenderOptions viewOptions() const;
@@ -212,16 +219,19 @@ class Session {
   void rememberCosts();
   void askForFrame();
   bool supersamples() const;
+  DebugView viewToTrace(bool still) const;
   FrameRequest movingRequest(const ImageSize& window);
   FrameRequest stillRequest(const ImageSize& window);
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void followRays();
   void watchSceneFile();
+  void showReadScene();
   void takeOptions(const Scene& last, bool elsewhere);
   void takeScene(bool elsewhere);
 
   const ViewOptions& options_;
   ViewState state_;
+  SceneReader reader_;
   RenderThread thread_;
   CameraControl control_;
   ResolutionControl resolution_;
@@ -242,7 +252,8 @@ class Session {
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
   bool selects_ = false;                      // the next answer selects a material and a light
 
-  std::string opening_;  // name of another scene while it is read
+  std::string opening_;                      // name of another scene while it is read
+  std::shared_ptr<const OpenScene> coming_;  // was read, and no frame shows it yet; or null
   int reloads_ = 0, edits_ = 0;
   std::vector<std::string> readSettings_;   // with which the scene was read first
   std::vector<std::string> savedSettings_;  // that a file or the command line holds

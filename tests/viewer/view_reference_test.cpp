@@ -1,0 +1,153 @@
+// The views of the scalar reference and of the difference from it.
+#include <gtest/gtest.h>
+
+#include "inspect/reference_frame.h"
+#include "render_thread_fixture.h"
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+// Counts the reports of the reference.
+class ReportCount : public Progress {
+ public:
+  void report(const std::string& /*phase*/, double /*fraction*/) override { ++reports; }
+  std::atomic<int> reports = 0;
+};
+
+class ReferenceViews : public RenderThreadTest {
+ protected:
+  ReferenceViews() {
+    request_.interruptible = true;
+    calls_.superseded = calls_.stopped = [] { return false; };
+    calls_.answer = [] {};
+    calls_.publish = [](const TracedFrame&) {};
+    calls_.showUnfinished = [](const UnfinishedFrame&) {};
+    calls_.progress = &count_;
+  }
+
+  TracedFrame traced(FrameTracer& tracer, DebugView view) {
+    request_.view = view;
+    TracedFrame frame;
+    EXPECT_TRUE(tracer.trace(request_, frame, calls_));
+    return frame;
+  }
+
+  // Returns the picture by the scalar reference.
+  Film reference() const {
+    Renderer renderer(scene_->scene, request_.options);
+    Film film = makeFilm(scene_->scene, request_.options);
+    renderReference(renderer, request_.camera, film);
+    return film;
+  }
+
+  ReportCount count_;
+  TraceCalls calls_;
+};
+
+TEST_F(ReferenceViews, TheReferenceIsThatOfTheCommand) {
+  FrameTracer tracer(opened_, common_);
+  const TracedFrame frame = traced(tracer, DebugView::reference);
+
+  const Film film = reference();
+  EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
+  EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
+  EXPECT_NE(film.image.pixels, expected().image.pixels) << "the packets round as doubles do";
+  EXPECT_EQ(frame.options.mode, Mode::reference);
+  ASSERT_TRUE(frame.debug);
+  EXPECT_EQ(frame.debug->textOf(0).find("0 codes off the reference, "), 0u);
+}
+
+TEST_F(ReferenceViews, TheDifferenceIsThatOfPacketsAndReference) {
+  FrameTracer tracer(opened_, common_);
+  const TracedFrame frame = traced(tracer, DebugView::difference);
+
+  // The largest difference of each pixel, in codes.
+  const Film packets = expected(), film = reference();
+  int largest = 0, sum = 0;
+  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+    int codes = 0;
+    for (std::size_t at = 4 * i; at < 4 * i + 3; ++at) {
+      codes = std::max(codes, std::abs(packets.display.rgba[at] - film.display.rgba[at]));
+    }
+    largest = std::max(largest, codes);
+    sum += codes;
+  }
+
+  EXPECT_EQ(frame.film.image.pixels, packets.image.pixels);
+  EXPECT_EQ(frame.options.mode, Mode::packets);
+  ASSERT_TRUE(frame.debug);
+  EXPECT_EQ(frame.debug->largest, largest);
+  EXPECT_DOUBLE_EQ(frame.debug->mean, sum / static_cast<double>(film.image.pixels.size()));
+}
+
+TEST_F(ReferenceViews, TheOtherViewNeedsNoSecondReference) {
+  FrameTracer tracer(opened_, common_);
+  traced(tracer, DebugView::reference);
+  const int reports = count_.reports;
+  EXPECT_GT(reports, 0);
+
+  traced(tracer, DebugView::difference);
+  EXPECT_EQ(count_.reports, reports);
+
+  request_.camera = scene_->scene.cameras[1];
+  traced(tracer, DebugView::difference);
+  EXPECT_GT(count_.reports, reports);
+}
+
+// Rows are reported one by one; a transparent background needs all of them a second time.
+TEST_F(ReferenceViews, AStopEndsTheReferenceWithinSomeRows) {
+  const int rows = request_.options.size->height;
+  for (const int last : {5, rows + 5}) {
+    setOption(request_.options, "background", last > rows ? "transparent" : "sky");
+    count_.reports = 0;
+    calls_.superseded = calls_.stopped = [&] { return count_.reports >= last; };
+
+    FrameTracer tracer(opened_, common_);
+    TracedFrame frame;
+    request_.view = DebugView::difference;
+    EXPECT_FALSE(tracer.trace(request_, frame, calls_));
+    EXPECT_GE(count_.reports, last);
+    EXPECT_LT(count_.reports, last + rows / 2);
+  }
+}
+
+TEST_F(ReferenceViews, AReferenceGivesWayToAMovement) {
+  RenderThread thread(opened_, common_, [] {});
+  FrameRequest large = request_;
+  large.view = DebugView::difference;
+  large.options.size = {800, 800};
+  ASSERT_TRUE(thread.ask(large));
+  while (thread.progress().empty() && thread.busy()) std::this_thread::yield();
+  EXPECT_FALSE(thread.committed());
+
+  request_.interruptible = false;
+  EXPECT_TRUE(thread.ask(request_));
+  ASSERT_TRUE(waitFor(thread));
+  TracedFrame frame;
+  ASSERT_TRUE(thread.take(frame));
+  EXPECT_TRUE(samePicture(frame.request, request_));
+  EXPECT_EQ(thread.progress(), "");
+}
+
+// The picture is moved while its reference is traced, and comes to rest again. It is so small that
+// it has all pixels and samples in motion, where it is not the reference yet.
+TEST_F(Viewer, TheReferenceHasTheBitsOfItsCommand) {
+  const cli::Outcome outcome = play(
+      "bare\nkey D 0.3\nwait 10 frames\nmouse left 20 5\nwait 3 frames\nwait sharp\n"
+      "screenshot reference.png\nkey C\nkey V\nwait 3 frames\nwait sharp\n"
+      "screenshot difference.png\nkey C\n",
+      {"--view", "reference", "--size", "240x160"});
+
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_NE(lines[0].find(" --mode=reference"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[1].find(" --mode"), std::string::npos) << lines[1];
+
+  render(lines[0], "again.png");
+  expectSameCodes("reference.png", "again.png");
+  EXPECT_NE(codes("difference.png").codes, codes("reference.png").codes);
+}
+
+}  // namespace
+}  // namespace whit::view

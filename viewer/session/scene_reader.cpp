@@ -1,0 +1,51 @@
+#include "viewer/session/scene_reader.h"
+
+#include <chrono>
+#include <utility>
+
+#include "output/open_and_warn.h"
+
+namespace whit::view {
+
+std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions common,
+                                  const RenderOptions& options, Progress* progress) {
+  common.load.settings = choice.settings;
+  common.load.instant.animation = choice.animation;
+  if (choice.sky) {
+    common.load.sky = *choice.sky;
+    common.load.allowOutside = true;  // the user chose the file of the sky
+  }
+
+  auto engine = std::make_unique<Engine>(openAndWarn(choice.name, common, progress));
+  engine->setOptions(options);
+  engine->prepare(progress);
+  return engine;
+}
+
+void SceneReader::read(const SceneChoice& choice, const RenderOptions& options) {
+  giveUp();
+  text_ = "reading " + choice.name;
+  progress_ = std::make_shared<LatestProgress>();
+
+  // Two scenes are never read at the same time: together they may need too much memory.
+  const auto work = [choice, common = common_, options, progress = progress_,
+                     before = reading_.share()]() mutable {
+    if (before.valid()) before.wait();
+    before = {};
+    return readScene(choice, common, options, progress.get());
+  };
+  reading_ = std::async(std::launch::async, work);
+}
+
+void SceneReader::giveUp() {
+  if (progress_) progress_->givenUp = true;
+}
+
+std::unique_ptr<Engine> SceneReader::take() {
+  if (!busy() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return nullptr;
+  }
+  return reading_.get();
+}
+
+}  // namespace whit::view

@@ -1,0 +1,52 @@
+// Reads scenes on a thread of its own, so that the one that is shown stays alive meanwhile.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/parse_options.h"
+#include "engine/engine.h"
+#include "viewer/session/latest_progress.h"
+
+namespace whit::view {
+
+struct SceneChoice {
+  std::string name;
+  std::vector<std::string> settings;
+  std::string animation;                // empty: the first one
+  std::optional<std::string> sky = {};  // of a scene that is read again with its edits
+};
+
+// Reads the scene and builds a renderer with these options. Throws as the reader and the renderer.
+std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions common,
+                                  const RenderOptions& options, Progress* progress = nullptr);
+
+// It belongs to one thread, which never waits before the end.
+class SceneReader {
+ public:
+  // `common` must outlive the reader.
+  explicit SceneReader(const cli::CommonOptions& common) : common_(common) {}
+  ~SceneReader() { giveUp(); }
+
+  // Begins to read in place of what was being read.
+  void read(const SceneChoice& choice, const RenderOptions& options);
+  void giveUp();
+  // Hands over the scene once it is read, or throws what has kept it from being read.
+  std::unique_ptr<Engine> take();
+
+  bool busy() const { return reading_.valid() && !progress_->givenUp; }
+  // "reading NAME" and its progress; empty: nothing is being read.
+  std::string text() const { return busy() ? text_ + " " + progress_->text() : ""; }
+
+ private:
+  const cli::CommonOptions& common_;
+  std::string text_;
+  std::shared_ptr<LatestProgress> progress_;
+  std::future<std::unique_ptr<Engine>>
+      reading_;  // its end is waited for, also where it was given up
+};
+
+}  // namespace whit::view
