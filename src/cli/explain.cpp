@@ -348,7 +348,7 @@ int explainCommand(const Words& words) {
   auto progress = makeProgressBar(job.common);
   Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
-  const int samplesOfPicture = engine.wantedOptions().spp;
+  const int samplesOfPicture = engine.requestedOptions().spp;
 
   // Nobody reads the rays of hundreds of samples: one explains the pixel, unless more are asked
   // for.

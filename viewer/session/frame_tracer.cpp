@@ -50,7 +50,7 @@ bool hasSampledRays(const RenderOptions& options) {
 }
 
 FrameTracer::FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common)
-    : engine_(std::make_unique<Engine>(std::move(scene))) {
+    : warns_(common.warns), engine_(std::make_unique<Engine>(std::move(scene))) {
   engine_->setOptions(common.render, common.given);
   engine_->prepare();
 }
@@ -73,7 +73,7 @@ void FrameTracer::edit(const SceneEdit& edit) {
     fresh.note(kind, entry.first, entry.count);
     warning_ = kind + ": " + entry.first;
   }
-  if (common_.warns) cli::tellWarnings(fresh);
+  if (warns_) cli::printWarnings(fresh);
   edited_.reset();
 }
 
@@ -141,7 +141,7 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   frame.effects = renderer.plan().effects;
   frame.sampled = renderer.plan().features.has(Feature::streams);
   frame.reasons = scene.reasons;
-  frame.dark = lackOfLight(scene);
+  frame.dark = noLightWarning(scene);
   frame.machine = renderer.machine();
 
   if (!edited_) edited_ = std::make_shared<const EditedScene>(editedScene(*open));

@@ -112,7 +112,7 @@ struct TracedFrame {
   ImageMetadata metadata;
   EffectSet effects;                               // the effects that were traced
   bool sampled = false;                            // rays were drawn at random
-  std::string dark;                                // lackOfLight()
+  std::string dark;                                // noLightWarning()
   double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
   std::array<EffectReason, kEffectCount> reasons;  // copied, because edits change the scene's own
   std::shared_ptr<const EditedScene> edited;       // copied as well: the scene after its edits
@@ -207,6 +207,7 @@ class FrameTracer {
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
+  const bool warns_;  // of edits, on standard error
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
   std::string warning_;                        // of edits, until a picture tells it
