@@ -230,6 +230,141 @@ mutations() {
     if (std::memcmp' 'y < part.y + part.height - 1; ++y) {
     if (std::memcmp'
   plant no-referrer-policy viewer/serve/server.cpp '{"Referrer-Policy", "no-referrer"},' ''
+
+  testedBy images_test 'OverBackground.*:MergeImages.*:ImageLayers.*:ExrTest.*'
+  plant exposure-over-background src/core/display.cpp \
+    'std::exp2(static_cast<double>(options.exposure.ev))' '1.0'
+  plant no-tone-curve-over-background src/core/display.cpp \
+    'displayCodes(surfaces, scale, options.toneCurve)' \
+    'displayCodes(surfaces, scale, ToneCurve::none)'
+  plant combined-layer-not-preferred src/io/image/exr.cpp \
+    'if (layer.empty() || isCombined) layer = found;' 'if (layer.empty() || !isCombined) layer = found;'
+  plant half-floats-not-clamped src/io/image/exr.cpp \
+    'std::clamp(pixel[c], -kLargest, kLargest)' 'std::max(pixel[c], -kLargest)'
+  plant ndc-upside-down src/io/image/exr.cpp \
+    'static_cast<float>(-1 / (pixel * image.height))' \
+    'static_cast<float>(1 / (pixel * image.height))'
+  plant merge-keeps-crop src/io/image/image_layers.cpp 'entry.first == "crop" ||' ''
+  plant merge-keeps-first-layer src/io/image/image_layers.cpp \
+    '        word = layers[k].words[from];' '        if (!covered[i]) word = layers[k].words[from];'
+
+  testedBy unit_test 'FailureOf.*:MemoryLeft.*:RunnableTasks.*:ModelViews.*'
+  plant memory-in-thousands src/core/machine_limits.cpp '1024 * kilobytes' '1000 * kilobytes'
+  plant counts-itself-as-other-task src/core/machine_limits.cpp \
+    'std::max(tasks - 1, 0)' 'std::max(tasks, 0)'
+  plant azimuth-the-other-way src/make/model_view.cpp \
+    'return {across * std::sin(azimuth), side.y, across * std::cos(azimuth)};' \
+    'return {-across * std::sin(azimuth), side.y, across * std::cos(azimuth)};'
+  plant zoom-in-rooms-ignored src/make/model_view.cpp \
+    'std::tan(kWide * (std::numbers::pi / 360)) / scene.zoom' \
+    'std::tan(kWide * (std::numbers::pi / 360))'
+  plant no-thread-is-a-failure src/core/error.cpp \
+    '{ExitStatus::limit, std::string("cannot start another thread: ")' \
+    '{ExitStatus::checkFailed, std::string("cannot start another thread: ")'
+
+  testedBy io_test 'Gltf*:Mtl.*:Ply.*:ReadFile.*'
+  plant texture-turned-the-other-way src/io/gltf/material.cpp \
+    'uv.uv = s * scale[1];' 'uv.uv = -s * scale[1];'
+  plant nearest-by-min-filter src/io/gltf/material.cpp 'sampler["magFilter"]' 'sampler["minFilter"]'
+  plant mask-without-alpha-factor src/io/gltf/material.cpp \
+    'std::min(g.alphaCutoff / g.alpha, 1.0f)' 'g.alphaCutoff'
+  plant absorbs-by-distance src/io/gltf/material.cpp '-logarithm / distance' '-logarithm * distance'
+  plant texture-transform-without-set src/io/gltf/material.cpp \
+    'readSet(t["texCoord"], uv.set)' 'uv.set'
+  plant half-of-orthographic-height src/io/gltf/nodes.cpp \
+    'static_cast<float>(2 * ymag)' 'static_cast<float>(ymag)'
+  plant mtl-offset-v-the-other-way src/io/obj/mtl_reader.cpp \
+    '1.0 - double{map.offset.y} - double{map.scale.y}' \
+    '1.0 + double{map.offset.y} - double{map.scale.y}'
+  plant mtl-scale-v-as-u src/io/obj/mtl_reader.cpp \
+    'texture.uv.vv = double{map.scale.y}' 'texture.uv.vv = double{map.scale.x}'
+  plant mtl-metalness-map-needs-pm src/io/obj/mtl_reader.cpp \
+    'unit("pm", m.metallicRoughnessMap.exists() ? 1 : 0)' 'unit("pm", 0)'
+  plant mtl-illum-5-as-3 src/io/obj/mtl_reader.cpp 'illum_ == 5 ? Rgb(1.0f) : highlight' 'highlight'
+  plant ply-16-bit-colors-as-8 src/io/ply/ply_model.cpp \
+    'if (white > 0) value /= white;' 'if (white > 0) value /= 255;'
+  plant ply-face-v-flipped src/io/ply/ply_model.cpp \
+    'static_cast<float>(face.coordinates[2 * i + 1])' \
+    'static_cast<float>(1 - face.coordinates[2 * i + 1])'
+  plant pointer-files-taken src/io/files.cpp \
+    'bytes.starts_with("version https://git-lfs.github.com/spec/")' 'false'
+
+  testedBy cli_test 'StageTable.*:RunJson.*:ProgressText.*:MemoryMb.*:Models.*:JsonResults.*:FarModels.*'
+  plant minutes-as-hours src/output/frame_summary.cpp 'perSecond * 60);' 'perSecond * 3600);'
+  plant lanes-not-in-percent src/output/frame_summary.cpp \
+    'formatted("%.1f", 100 * lanesFilled(tally))' 'formatted("%.1f", lanesFilled(tally))'
+  plant peak-memory-in-kilobytes src/output/json_report.cpp \
+    'usage.ru_maxrss) * 1024 / 1e6;' 'usage.ru_maxrss) / 1e6;'
+  plant waited-as-spent src/output/json_report.cpp \
+    '{"waited", quantile(run.waitedMs, 0.5)}' '{"waited", quantile(run.writingMs, 0.5)}'
+  plant fps-in-milliseconds src/output/json_report.cpp \
+    'frame.frameMs > 0 ? 1e3 / frame.frameMs : 0' 'frame.frameMs > 0 ? 1 / frame.frameMs : 0'
+  plant time-left-as-all-time src/command_line/progress_bar.cpp \
+    'ms * (1 - fraction) / fraction / 1000' 'ms / fraction / 1000'
+  plant info-memory-in-kilobytes src/cli/info.cpp \
+    'scene.memoryBytes()) / 1e6' 'scene.memoryBytes()) / 1e3'
+  plant options-of-models-as-presets src/cli/info.cpp \
+    'value != optionText(stated, name)' 'value == optionText(stated, name)'
+  plant efficiency-without-threads src/cli/bench.cpp '100 * alone / ms / threads' '100 * alone / ms'
+  plant compare-files-unexposed src/cli/compare.cpp \
+    'result.exposure = job.common.render.exposure.ev;' 'result.exposure = 0;'
+  plant ray-tree-far-off src/cli/explain.cpp 'jsonOf(scene.inFile(n.position))' 'jsonOf(n.position)'
+
+  testedBy cli_test 'Images.Resum*:Film.*:Options.*:Program.*:DeadEnds.*:Interrupt*:Limits.*:Render.*'
+  plant resumes-another-target src/output/image_output.cpp \
+    '(entry.first == "simd" && options.simd == "auto")' 'entry.first == "simd"'
+  plant resumes-cut-off-images src/output/image_output.cpp \
+    '  readImage(path, limits);
+' \
+    '  (void)limits;
+'
+  plant film-twice-as-fast src/output/film_pipe.cpp 'width, height, fps),' 'width, height, 2 * fps),'
+  plant value-of-a-flag-ignored src/command_line/parse_options.cpp \
+    'typed.value.value_or("true")' 'std::string("true")'
+  plant ground-off src/command_line/parse_options.cpp 'set("/ground=true")' 'set("/ground=false")'
+  plant bench-takes-both src/cli/bench.cpp 'job.common.given.contains(series.option),' 'false,'
+  plant no-words-succeed src/cli/main.cpp 'return static_cast<int>(ExitStatus::usage);' 'return 0;'
+  plant frames-backwards src/output/image_output.cpp \
+    'if (!good || range.last < range.first) {' 'if (!good) {'
+  plant tolerance-below-zero src/cli/compare.cpp \
+    'list.value({"tolerance", "X", 0},' 'list.value({"tolerance", "X"},'
+  plant hang-up-not-handled src/command_line/program.cpp \
+    '{SIGINT, SIGTERM, SIGHUP}' '{SIGINT, SIGTERM}'
+  plant file-size-limit-kills src/command_line/program.cpp '  signal(SIGXFSZ, SIG_IGN);' ''
+  plant overwrites-a-texture src/cli/render.cpp \
+    'std::filesystem::exists(file) && !isOurPicture(file)' 'false'
+
+  testedBy serve_test 'PictureStream.*:Serving.*'
+  plant no-nosniff viewer/serve/server.cpp \
+    '{"X-Content-Type-Options", "nosniff"},' '{"X-Content-Type-Options", ""},'
+  plant kept-by-caches viewer/serve/server.cpp \
+    '{"Cache-Control", "no-store"}' '{"Cache-Control", "max-age=3600"}'
+  plant any-http-origin viewer/serve/server.cpp \
+    'origin != "http://" + host' '!origin.starts_with("http://")'
+  plant no-bound-of-messages viewer/serve/served_session.cpp \
+    'if (messages_.size() + messages.size() > kMostMessages) return false;' ''
+  plant acknowledges-one-alone viewer/serve/picture_stream.cpp \
+    'underWay_.erase(underWay_.begin(), found + 1);' 'underWay_.erase(found);'
+  plant download-name-as-it-is viewer/serve/server.cpp \
+    'std::isalnum(static_cast<unsigned char>(c)) ? c : '\''-'\''' 'c'
+
+  testedBy reference_test 'Projections.*'
+  plant camera-without-skew src/scene/camera.cpp 'double{camera.k[4]} * scaleX * stepY' '0'
+  plant image-center-half-a-pixel-off src/scene/camera.cpp \
+    '(double{camera.k[2]} + 0.5) * scaleX' 'double{camera.k[2]} * scaleX'
+
+  testedBy example_test 'Library.*:RayQueries.*'
+  plant rays-count-written-instances src/library/rays.cpp \
+    'scene.instances[instance].written' 'instance'
+  plant rays-side-swapped src/library/rays.cpp 'hit.back ? -1 : 1' 'hit.back ? 1 : -1'
+  plant left-of-crop-lost src/library/image.cpp 'return data_->film.image.window.x0;' 'return 0;'
+  plant bytes-without-alpha src/library/image.cpp 'all.at("hasAlpha").get<bool>()' 'false'
+
+  testedBy accuracy_test 'SceneDigest.*'
+  plant fog-not-in-digest src/output/digest.cpp '!isBlack(fog.density)' 'false'
+
+  testedBy viewer_test 'Viewer.AScenePaused*'
+  plant command-time-rounded viewer/session/view_files.cpp '" --time %.17g"' '" --time %.3g"'
 }
 
 mode=run

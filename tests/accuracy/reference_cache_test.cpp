@@ -60,6 +60,7 @@ TEST(SceneDigest, EveryTableMatters) {
       [](auto& d) { d.textures[0].wrapV = Wrap::clamp; },
       [](auto& d) { d.sky.zenith.x = 0.2f; },
       [](auto& d) { d.ambient.up = Rgb(0.1f); },
+      [](auto& d) { d.fog.density.y = 0.1f; },
       [](auto& d) {
         d.instances.push_back({0, Affine::translation({5, 0, 0})});
       },

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/machine_limits.h"
 #include "run_program.h"
@@ -130,6 +131,16 @@ TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
     expected = expected == all ? 0 : std::min(2 * expected, all);
   }
   EXPECT_EQ(expected, 0) << "the last run has all threads";
+
+  // The table divides the speed-up by the threads; the tolerance is that of its digits.
+  const std::string table = runWhit({"bench", tiny_, "--frames", "1", "--threads-scaling"}).out;
+  std::istringstream rows(table.substr(table.find("efficiency %\n") + 13));
+  double threads = 0, ms = 0, speedUp = 0, efficiency = 0;
+  std::string scene;
+  while (rows >> threads >> ms >> speedUp >> efficiency >> scene) {
+    EXPECT_NEAR(efficiency, 100 * speedUp / threads, 0.051 + 0.5 / threads) << table;
+  }
+  EXPECT_EQ(threads, all) << table;
 }
 
 TEST_F(JsonResults, BenchOfTheReferenceTakesOneFrame) {
@@ -182,6 +193,12 @@ TEST_F(JsonResults, CompareFiles) {
   EXPECT_TRUE(json["psnr_db"].is_null());  // infinite
   EXPECT_TRUE(json["path_flips_per_mpx"].is_null());
   EXPECT_FALSE(json.contains("stages"));
+
+  // Two pictures of which one is darker have no code in common, or are both black.
+  const std::string b = folder_ / "b.exr";
+  ASSERT_EQ(runWhit({"render", tiny_, "-o", b, "--set", "/lights/0/intensity=[1,1,1]"}).status, 0);
+  EXPECT_GT(resultOf({"compare", a, b})["max_code"], 0);
+  EXPECT_EQ(resultOf({"compare", a, b, "--exposure", "-60"})["max_code"], 0);
 }
 
 TEST_F(JsonResults, Info) {

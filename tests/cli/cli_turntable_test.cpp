@@ -180,7 +180,9 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
 TEST(Film, FramesAreThoseOfTheirOwnFiles) {
   const TemporaryFolder folder, programs;
   const std::string tiny = writeTinyScene(folder), film = folder / "film.mp4";
-  writeProgram(programs, "for last; do :; done; cat >\"$last\"");  // writes the raw frames
+  // Writes the raw frames, and what it was called with.
+  const std::string called = programs / "words";
+  writeProgram(programs, "for last; do :; done; echo \"$*\" >" + called + "; cat >\"$last\"");
   const auto render = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"render", tiny, "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
@@ -191,6 +193,8 @@ TEST(Film, FramesAreThoseOfTheirOwnFiles) {
   const Outcome outcome =
       render({"--frames", "1..3", "--fps", "4", "-o", film, "-o", folder / "f#.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(readFile(called).find("-pix_fmt rgb0 -s 48x32 -r 4 -i -"), std::string::npos)
+      << readFile(called);
 
   // ffmpeg gets four bytes a pixel, the last of which is unused.
   std::string frames;

@@ -48,6 +48,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"compare whitted nope.png", kUsage, "'whitted': expected one scene, or two image files"},
     {"compare a.png b.png", kIo, "cannot open a.png: no such file"},
     {"compare a.png", kUsage, "expected a scene (.json), a model (.3ds"},
+    {"compare a.png b.png --tolerance -1", kUsage, "expected a number of at least 0, found '-1'"},
     {"merge", kUsage, "expected OUT.exr PART.exr...: the image to write"},
     {"merge x.exr", kUsage, "expected OUT.exr PART.exr..."},
     {"scenes nope", kUsage, "one word too many: 'nope'"},

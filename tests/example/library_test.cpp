@@ -212,6 +212,14 @@ TEST(Library, ImagesAreValues) {
   EXPECT_EQ(second.width(), 40);
 }
 
+TEST(Library, BytesOfAnImageHoldAllOfIt) {
+  Renderer renderer = smallRenderer();
+  renderer.set("background", "transparent").set("crop", "8,4,20,16").set("channels", "depth");
+  const Image image = renderer.render(), same = Image::fromBytes(image.bytes());
+  EXPECT_EQ(same.png(), image.png());
+  EXPECT_EQ(same.bytes(), image.bytes());
+}
+
 TEST(Library, HandlesThatWereMovedFromSaySo) {
   Renderer renderer = smallRenderer();
   Scene scene = renderer.scene();

@@ -145,5 +145,18 @@ TEST(OverBackground, IsNotExposed) {
             (std::vector<std::uint8_t>{162, 137, 137, 255}));
 }
 
+// Reinhard's curve makes 1/2 of 1, whose code is 188. The background keeps its codes.
+TEST(OverBackground, CurvesTheSurfacesAlone) {
+  Image image(2, 1);
+  image.pixels = {Rgb(1.0f), Rgb(0.0f)};
+  RenderOptions options;
+  options.toneCurve = ToneCurve::reinhard;
+  options.background = {Background::Kind::color, {255, 128, 0}};
+
+  const std::vector<float> alpha{1, 0};
+  EXPECT_EQ(overBackground(image, alpha, options).rgba,
+            (std::vector<std::uint8_t>{188, 188, 188, 255, 255, 128, 0, 255}));
+}
+
 }  // namespace
 }  // namespace whit

@@ -116,6 +116,17 @@ TEST_F(ImageLayers, PartsAreMerged) {
   }
 }
 
+TEST_F(ImageLayers, OfTheLaterPartCount) {
+  ChannelLayers later = sampleChannels();
+  for (std::uint32_t& count : later.numbers(Channel::rays)) count += 7;
+  const std::string first = write("a.exr", sampleChannels()), second = write("b.exr", later);
+  const std::vector<ImageLayer> merged = mergeImages({first, second}, limits_, warnings_).layers;
+
+  const std::vector<ImageLayer> wanted = readLayers(second, limits_);
+  ASSERT_EQ(merged.size(), wanted.size());
+  for (std::size_t k = 0; k < merged.size(); ++k) EXPECT_EQ(merged[k].words, wanted[k].words) << k;
+}
+
 TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
   ChannelLayers less;
   less.resize(parseChannels("depth"), 12);

@@ -86,6 +86,10 @@ TEST_F(MergeImages, KeepsTheTextThatAllPartsAgreeOn) {
       {part("a.exr", {0, 0, 8, 3}, 0, 8, {{"crop", "0,0,8,3"}, {"spp", "4"}, {"simd", "a"}}),
        part("b.exr", {0, 3, 8, 6}, 0, 8, {{"crop", "0,3,8,6"}, {"spp", "4"}, {"simd", "b"}})});
   EXPECT_EQ(merged.metadata, (ImageMetadata{{"spp", "4"}}));
+
+  // The whole is no crop, whatever a part says.
+  const std::string all = part("c.exr", {0, 0, 8, 6}, 0, 8, {{"crop", "0,0,8,6"}, {"spp", "4"}});
+  EXPECT_EQ(merge({all, all}).metadata, merged.metadata);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Every member of a scene file's cameras, materials, lights, sky and ambient light changes the
 // picture: from the file to the pixels, on both paths. A member that is not in a table fails.
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -147,7 +148,8 @@ class EveryMember : public SceneFileTest {
     save("data.tga", tga(2, 2, {{255, 255, 255}, {40, 40, 40}, {90, 90, 90}, {200, 200, 200}}));
   }
 
-  Image picture(const PlainJson& scene, Mode mode) {
+  // By packets and by the reference, of a scene that is loaded once.
+  std::array<Image, 2> picturesOf(const PlainJson& scene) {
     Warnings warnings;
     const Scene loaded =
         Scene::finalize(loadScene(save("s.json", scene.dump()), options_, warnings), warnings);
@@ -158,17 +160,13 @@ class EveryMember : public SceneFileTest {
     options.lightSamples = options.ambientSamples = 2;
     options.glossy = withRays_ ? 1 : 0;
     options.indirect = indirect_;
-    options.mode = mode;
 
     Renderer renderer(loaded, options);
-    Film film = makeFilm(loaded, options);
+    Film packets = makeFilm(loaded, options), reference = packets;
     const Camera camera = chooseCamera(loaded, options);
-    if (mode == Mode::packets) {
-      renderer.render(camera, film);
-    } else {
-      renderReference(renderer, camera, film);
-    }
-    return film.image;
+    renderer.render(camera, packets);
+    renderReference(renderer, camera, reference);
+    return {packets.image, reference.image};
   }
 
   int indirect_ = 0;
@@ -177,7 +175,7 @@ class EveryMember : public SceneFileTest {
 
 TEST_F(EveryMember, ChangesThePicture) {
   std::map<std::string, Names> tested;
-  std::map<std::string, Image> pictures;
+  std::map<std::string, std::array<Image, 2>> pictures;
   for (const Row& row : kRows) {
     tested[row.place].insert(row.name);
     const PlainJson::json_pointer place(row.place);
@@ -194,15 +192,14 @@ TEST_F(EveryMember, ChangesThePicture) {
     // Samples of the lobe see the material's own members, and the blurred sky the ambient light's.
     withRays_ = std::string(row.name) == "glossyReflection" || std::string(row.name) == "frosted";
     indirect_ = std::string(row.name) == "diffuseReflection" ? 1 : 0;
-    for (const Mode mode : {Mode::packets, Mode::reference}) {
-      SCOPED_TRACE(std::string(row.place) + "/" + row.name);
-      // Most rows begin with the same scene.
-      const std::string key = before.dump() + std::to_string(static_cast<int>(mode)) +
-                              std::to_string(indirect_) + std::to_string(withRays_);
-      if (!pictures.contains(key)) pictures[key] = picture(before, mode);
-      EXPECT_TRUE(pictures[key].pixels != picture(after, mode).pixels)
-          << "in mode " << static_cast<int>(mode);
-    }
+    SCOPED_TRACE(std::string(row.place) + "/" + row.name);
+
+    // Most rows begin with the same scene.
+    const std::string key = before.dump() + std::to_string(indirect_) + std::to_string(withRays_);
+    if (!pictures.contains(key)) pictures[key] = picturesOf(before);
+    const std::array<Image, 2> changed = picturesOf(after);
+    EXPECT_TRUE(pictures[key][0].pixels != changed[0].pixels) << "by packets";
+    EXPECT_TRUE(pictures[key][1].pixels != changed[1].pixels) << "by the reference";
   }
 
   const auto expectTested = [&]<typename Noun>(const Names& names, const Noun*) {

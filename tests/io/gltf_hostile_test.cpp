@@ -269,6 +269,7 @@ TEST_F(GltfHostile, ReplacedNumbers) {
 
   tryText(whole);
   EXPECT_EQ(loaded, 1u);
+  options_.sky = "none";  // the studio is always the same, and blurring it takes most of the time
 
   // A number begins behind a colon, a bracket or a comma.
   for (std::size_t at = 0, end = 0; end < whole.size(); at = whole.find_first_of(":[,", end)) {
@@ -297,6 +298,7 @@ TEST_F(GltfHostile, FlippedBits) {
 
   options_.threads = 1;
   options_.maxMemoryBytes = 64 << 20;
+  options_.sky = "none";  // see above
 
   std::size_t refused = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {

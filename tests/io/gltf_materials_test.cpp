@@ -333,9 +333,9 @@ TEST_F(GltfMaterials, TransmissionIsADielectric) {
   // ior 2: a ninth is reflected.
   expectColor(through(volume + ",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
 
-  // Over a distance of 2, the square of what a distance of 1 leaves.
-  expectColor(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
-                      "\"attenuationColor\":[0.5,1,1]}"),
+  // Over a distance of 2, the root of what a distance of 4 leaves.
+  expectColor(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":4,"
+                      "\"attenuationColor\":[0.0625,1,1]}"),
               Rgb{0.24f, 0.48f, 0.24f});
 }
 

@@ -17,6 +17,7 @@
 #include "oracle/random_parts.h"
 #include "oracle/tracer.h"
 #include "oracle/write_scene.h"
+#include "sanitized.h"
 
 namespace oracle {
 
@@ -47,8 +48,8 @@ struct Kind {
   std::string name;
   std::function<void(SceneMaker&)> make;
   Options options{};
-  int scenes = 10;
-  double rounding = 1;  // by how much more whit rounds than about the origin
+  int scenes = whit::kSanitized ? 3 : 10;  // sanitizers watch the code, not the numbers
+  double rounding = 1;                     // by how much more whit rounds than about the origin
 };
 
 // $WHIT_ORACLE_SCENES, if set, is how many scenes there are of each kind.

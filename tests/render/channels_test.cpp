@@ -141,6 +141,27 @@ TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
   EXPECT_EQ(floatsAt(film, Channel::alpha, film.image.width / 2, film.image.height / 2)[0], 1);
 }
 
+// The samples of a rough sheet's lobe turn aside, so that they show no background. Facets as good
+// as smooth let it through, however many samples the lobe may have.
+TEST_P(Channels, AlphaOfFrostedGlassIsWhatDoesNotGoStraightOn) {
+  for (const auto& [roughness, coverage, alpha] :
+       {std::array{0.4f, 1.0f, 1.0f}, {0.4f, 0.5f, 0.5f}, {0, 1.0f, 0.2f}, {0, 0.5f, 0.1f}}) {
+    SceneDescription d = squareScene();
+    Material& sheet = d.materials[1];
+    sheet.diffuse = Rgb(0.0f);
+    sheet.transmission = Rgb(0.8f);
+    sheet.thin = sheet.frosted = true;
+    sheet.roughness = roughness;
+    sheet.coverage = coverage;
+
+    RenderOptions o = options("alpha");
+    o.glossy = 8;
+    const Film film = filmOf(finalized(d), o);
+    const int x = film.image.width / 2, y = film.image.height / 2;
+    EXPECT_NEAR(floatsAt(film, Channel::alpha, x, y)[0], alpha, 1e-6f) << roughness << coverage;
+  }
+}
+
 // Surfaces keep their radiance, times their share of the pixel. Primary rays alone leave out the
 // sky.
 TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {

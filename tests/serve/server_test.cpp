@@ -287,10 +287,31 @@ TEST_F(Serving, InputIsTakenOrRefusedWithItsReason) {
   EXPECT_NE(post(std::string(view::kMessageBytes + 1, 'x')), 204);
   EXPECT_EQ(post("ack 99 1\nack 0 0"), 204) << "of a page that there is not";
 
-  // No page is open, so nothing is served: the queue fills, and no further.
   std::string many;
   for (std::size_t i = 0; i < view::kMessageLines; ++i) many += "fit\n";
   EXPECT_EQ(post(many), 204);
+
+  // The queue takes so many messages at a time, and no more.
+  constexpr std::size_t kMostMessages = 4096;
+  EXPECT_FALSE(session_->post(std::vector<Message>(kMostMessages + 1)));
+}
+
+// A quotation mark in the name of a scene would end that of the file, and a line's end the header.
+TEST_F(Serving, DownloadsAreNamedByLettersAndDigits) {
+  options_.scene = folder_ / "a\"; b=\n2.json";
+  std::filesystem::copy_file(folder_ / "tiny.json", options_.scene);
+  ServedSession session(options_, openAndTell(options_.scene, options_.common, nullptr));
+  session.watch(1);
+  Server server(session, {});
+  std::thread thread([&] { server.run(); });
+
+  httplib::Client client("127.0.0.1", server.port());
+  client.set_read_timeout(60);
+  const auto answer = client.Get("/" + server.token() + "/picture.png");
+  EXPECT_EQ(answer ? answer->get_header_value("Content-Disposition") : "no answer",
+            "attachment; filename=\"a---b--2.png\"");
+  server.stop();
+  thread.join();
 }
 
 TEST_F(Serving, EveryVerbIsServed) {
@@ -368,6 +389,25 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
     }
     EXPECT_TRUE(isTold()) << row.line << ": " << textAt(row.pointer) << ", as " << before;
   }
+  session_->watch(-1);
+}
+
+// A page that is gone cannot say that its keys are let go.
+TEST_F(Serving, KeysThatNobodyHoldsAnyMoreAreLetGo) {
+  session_->watch(1);
+  std::shared_ptr<const Shot> shot;
+  const auto becomes = [&](bool exact) {
+    constexpr double kLongEnoughMs = 20'000;
+    for (const Stopwatch waited; (!shot || shot->exact != exact) && waited.ms() < kLongEnoughMs;) {
+      if (const auto next = session_->wait(shot ? shot->number : 0)) shot = next;
+    }
+    return shot && shot->exact == exact;
+  };
+
+  EXPECT_TRUE(becomes(true));
+  ASSERT_EQ(post("hold 0 0 0 1 0 0"), 204);
+  EXPECT_TRUE(becomes(false));
+  EXPECT_TRUE(becomes(true));
   session_->watch(-1);
 }
 

@@ -144,9 +144,9 @@ TEST_F(Viewer, TheTimeBarPauses) {
 TEST_F(Viewer, AScenePausedAtATimeShowsThat) {
   writeMovingScene(folder_);
   const cli::Outcome outcome =
-      play("asked\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.5"});
+      play("asked\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.50390625"});
   EXPECT_EQ(linesOf(outcome.out).at(0),
-            "whit render tiny.json -o tiny.png --size=240x160 --time 1.5");
+            "whit render tiny.json -o tiny.png --size=240x160 --time 1.50390625");
 }
 
 }  // namespace
