@@ -300,7 +300,7 @@ TEST_F(Serving, InputIsTakenOrRefusedWithItsReason) {
 TEST_F(Serving, DownloadsAreNamedByLettersAndDigits) {
   options_.scene = folder_ / "a\"; b=\n2.json";
   std::filesystem::copy_file(folder_ / "tiny.json", options_.scene);
-  ServedSession session(options_, openAndTell(options_.scene, options_.common, nullptr));
+  ServedSession session(options_, openAndWarn(options_.scene, options_.common, nullptr));
   session.watch(1);
   Server server(session, {});
   std::thread thread([&] { server.run(); });
@@ -453,7 +453,7 @@ TEST_F(Serving, ARefusalSaysWhatToDo) {
 TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   session_->watch(1);
   const auto commandAt = [&](const char* size) {
-    EXPECT_TRUE(session_->post(readMessages(size)));
+    EXPECT_TRUE(session_->post(view::readMessages(size)));
     const std::string expected = size;
     for (int i = 0; i < 600; ++i) {
       const auto shot = session_->wait(0);

@@ -23,21 +23,25 @@ struct Shown {
   DisplayImage picture;
 };
 
-class Walker : public Session {
+class Walker {
  public:
-  using Session::Session;
+  Walker(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene)
+      : session_(options, scene, [] {}) {
+    const ImageSize& size = *options.common.render.size;
+    session_.setWindow(size, size.height, 1);
+  }
 
   // Moves for `length` seconds, and returns `kept` of the pictures at equal times.
   std::vector<Shown> fly(double length, int kept) {
     moveFor(kSecondsAtRest, [](double) {});
-    playOrPause();
-    if (!pathTime_) throwUsage(sceneName_ + " has no camera path");
+    session_.act("play");
     std::vector<Shown> all;
 
     pictures_ = changes_ = 0;
     moveFor(length, [&](double seconds) {
       if (seconds < length * (static_cast<double>(all.size()) + 0.5) / kept) return;
-      all.push_back({shown_.request.camera, shown_.film.display});
+      const TracedFrame& shown = session_.state().shown;
+      all.push_back({shown.request.camera, shown.film.display});
     });
     return all;
   }
@@ -45,25 +49,26 @@ class Walker : public Session {
   int changes() const { return changes_; }  // changes of the resolution
 
  private:
-  void fail(const std::string& error) override { throwUsage(error); }
-  ImageSize windowPixels() const override { return *options_.common.render.size; }
-
   template <typename Step>
   void moveFor(double length, const Step& step) {
+    const ViewState& state = session_.state();
     Stopwatch clock;
     for (double now = 0, before = 0; now < length; before = now) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      const std::optional<ImageSize> last = shown_.request.options.size;
-      if (fetchFrame()) {
+      const std::optional<ImageSize> last = state.shown.request.options.size;
+      if (session_.fetchFrame()) {
         ++pictures_;
-        changes_ += shown_.request.options.size != last;
+        changes_ += state.shown.request.options.size != last;
       }
+
       now = clock.ms() / 1000;
-      if (shown_.scene) step(now);
-      advance(CameraMotion(), now - before);
+      if (state.shown.scene) step(now);
+      session_.advance(now - before);
+      if (!state.error.empty()) throwUsage(state.error);
     }
   }
 
+  Session session_;
   int pictures_ = 0, changes_ = 0;
 };
 
@@ -133,7 +138,8 @@ int run(const std::vector<std::string>& words) {
   options.scene = scenes[0];
   if (!options.common.render.size) options.common.render.size = {480, 300};
   const std::shared_ptr<OpenScene> scene = openAndWarn(options.scene, options.common, nullptr);
-  Walker walker(options, scene, [] {});
+  if (scene->scene.cameraPath.empty()) throwUsage(options.scene + " has no camera path");
+  Walker walker(options, scene);
   const std::vector<Shown> all = walker.fly(seconds, kept);
 
   // References have the full size and many samples.
