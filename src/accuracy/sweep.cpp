@@ -36,6 +36,9 @@ std::vector<Knob> sweptKnobs(const SweepSettings& settings, std::vector<IdleKnob
 Scope scopeOf(const RenderOptions& base, EffectSet effects, const SweepSettings& settings,
               const FrameSource& baseline, ReferenceCache& cache) {
   Scope scope{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0};
+  if (settings.referenceSpp > 0) {
+    scope.limits.samples = scope.limits.leastSamples = settings.referenceSpp;
+  }
   scope.cutoff = exactCutoff(effects, settings.full);
   const ReferencePicture& exact = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr);
   scope.raysPerSample = exact.rays / base.spp;

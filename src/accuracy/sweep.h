@@ -101,6 +101,7 @@ struct SweepSettings {
   std::vector<std::string> knobs;
   std::uint32_t seed = 1;               // gives the order of the points
   std::optional<double> timingSeconds;  // for all points of a scene; default: see Limits
+  int referenceSpp = 0;  // samples a pixel of the reference; 0: as many as the limits allow
 };
 
 // `base` is the baseline. kQuick and kFull limit the samples of the reference and of the picture

@@ -60,6 +60,9 @@ OptionList listOptions(AccuracyJob& job) {
       "time for measuring times of a scene until their spread is known; the reference takes at "
       "most a third of it besides (default: 20, --full 600)",
       job.settings.timingSeconds);
+  list.value({"reference-spp", "N", 1, 65536},
+             "samples a pixel of the reference, which then do not depend on the time that it takes",
+             job.settings.referenceSpp);
   list.value({"seed", "N", 0, 1e9}, "seed of the random order of the measurements", job.seed);
 
   listCommonOptions(list, job.common);

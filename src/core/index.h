@@ -21,8 +21,29 @@ constexpr bool contains(const Table& table, const Value& value, Projection proje
   return std::ranges::find(table, value, projection) != std::ranges::end(table);
 }
 
-// The numbers from 0 that are less than `count`, as std::views::indices of C++26.
-constexpr auto indices(std::size_t count) { return std::views::iota(std::size_t{0}, count); }
+// The numbers from 0 that are less than `count`, as std::views::indices of C++26. Clang 14 cannot
+// compile std::views::iota of g++ 12's library.
+class Indices {
+ public:
+  struct Iterator {
+    std::size_t number;
+    constexpr std::size_t operator*() const { return number; }
+    constexpr Iterator& operator++() {
+      ++number;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+  };
+
+  constexpr explicit Indices(std::size_t count) : count_(count) {}
+  constexpr Iterator begin() const { return {0}; }
+  constexpr Iterator end() const { return {count_}; }
+
+ private:
+  std::size_t count_;
+};
+
+constexpr Indices indices(std::size_t count) { return Indices(count); }
 
 template <typename Table>
 requires requires(const Table& table) { std::size(table); }

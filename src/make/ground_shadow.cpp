@@ -85,7 +85,8 @@ Texture shadowOf(const TexelCounts& counts) {
   texture.wrapU = texture.wrapV = Wrap::clamp;
   for (int i = 0; i < kSide * kSide; ++i) {
     constexpr double kHalf = kSide / 2.0;
-    const double across = (i % kSide + 0.5) / kHalf - 1, along = (i / kSide + 0.5) / kHalf - 1;
+    const int column = i % kSide, row = i / kSide;
+    const double across = (column + 0.5) / kHalf - 1, along = (row + 0.5) / kHalf - 1;
     const double left = procedural::smoothStep(0, kFade, 1 - std::hypot(across, along));
     const std::size_t texel = i;
     const auto opacity = static_cast<float>(left * counts[texel] / kDirections);

@@ -139,12 +139,14 @@ TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
 }
 
 // The errors that are kept with the sources. To renew them after a change that is meant:
-// whit accuracy mirrors --size 32x20 --knobs depth,cutoff,spp --out DIR, then DIR/sweep.csv.
+// whit accuracy mirrors --size 32x20 --knobs depth,cutoff,spp --reference-spp 64 --out DIR, then
+// DIR/sweep.csv.
 TEST(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
   const cli::TemporaryFolder folder;
   const std::string out = folder / "out", kept = sourceFile("tests/accuracy/mirrors.csv");
-  const cli::Outcome outcome = runWhit({"accuracy", "mirrors", "--out", out, "--size", "32x20",
-                                        "--knobs", "depth,cutoff,spp", "--time-budget", "1"});
+  const cli::Outcome outcome =
+      runWhit({"accuracy", "mirrors", "--out", out, "--size", "32x20", "--knobs",
+               "depth,cutoff,spp", "--time-budget", "1", "--reference-spp", "64"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 
   const auto before = parseCsv(cli::readFile(kept), kept);

@@ -125,12 +125,13 @@ TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
   renderer.render(camera, film);
 
   std::optional<Film> reference = film;
-  const auto darken = [&](std::size_t pixel, int codes) {
-    reference->display.rgba[4 * pixel + 1] -= static_cast<std::uint8_t>(codes);
+  const auto change = [&](std::size_t pixel, int codes) {
+    std::uint8_t& green = reference->display.rgba[4 * pixel + 1];
+    green = static_cast<std::uint8_t>(green < 128 ? green + codes : green - codes);
   };
-  darken(0, 1);
-  darken(1, 3);
-  darken(2, 41);
+  change(0, 1);
+  change(1, 3);
+  change(2, 41);
   reference->image.pixels[1].y += 0.25f;
 
   DebugPicture picture;

@@ -89,7 +89,7 @@ std::vector<std::uint8_t> rows(const RawImage& image, int count) {
 TEST_F(Viewer, TheOldSceneLivesWhileAnotherOneIsRead) {
   const cli::Outcome outcome =
       play(std::string("asked\nwait sharp\nscreenshot before.png\ndrop ") + kSlowScene +
-               "\nwait 5 frames\nkey 2\nwait 100 frames\nscreenshot during.png\nkey Escape\n"
+               "\nwait 5 frames\nkey 2\nwait 100 frames\nscreenshot during.png\nkey Esc\n"
                "wait 10 frames\nwait sharp\nkey C\nwait 300 frames\nscreenshot after.png\n",
            {"--size", "400x300"});
 
@@ -136,7 +136,7 @@ TEST_F(Viewer, ABlackPictureSaysWhy) {
 
 // F12 waits for all samples, of which a picture in motion has one.
 TEST_F(Viewer, EscapeEndsTheWaitForThePicture) {
-  play("asked\nkey D 0.3\nkey F12\nkey Escape\nwait 3 frames\nwait sharp\nscreenshot shown.png\n",
+  play("asked\nkey D 0.3\nkey F12\nkey Esc\nwait 3 frames\nwait sharp\nscreenshot shown.png\n",
        {"--size", "400x300", "--spp", "64"});
   EXPECT_TRUE(std::filesystem::exists(folder_ / "shown.png")) << "Escape has ended the viewer";
   EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny-0001.png"));

@@ -719,8 +719,8 @@ RenderOptions Session::viewOptions() const {
 SavedScene Session::saveScene() {
   // The lock keeps the animation from moving the scene while it is written.
   const std::lock_guard lock(state_.scene->moving);
-  const SavedScene saved = view::saveScene(options_.common.load, state_.sceneName, state_.shown,
-                                           control_.camera(), viewOptions(), state_.options);
+  SavedScene saved = view::saveScene(options_.common.load, state_.sceneName, state_.shown,
+                                     control_.camera(), viewOptions(), state_.options);
   savedSettings_ = state_.shown.edited->settings;
   return saved;
 }

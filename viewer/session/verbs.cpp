@@ -70,9 +70,8 @@ std::span<const Verb> Session::verbs() {
        {2, 0, kLargestSide}},
       {"lines", "T", "draw the rays into the scene, or hide them"},
       {"next-view", "V",
-       "show depth, normals, albedo, rays, cost and packet occupancy in turn, with the value of "
-       "the "
-       "pixel under the pointer",
+       "show depth, normals, albedo, rays, cost, packet occupancy, the scalar reference and the "
+       "difference from it in turn, with the value of the pixel under the pointer",
        call<&Session::showNextView>},
       {"undo", "Ctrl+Z", "undo the last edit, or the last change of an option",
        call<&Session::undo>},
@@ -82,7 +81,8 @@ std::span<const Verb> Session::verbs() {
       {"copy", "C",
        "copy and print the whit render command that makes the same picture, bit for bit"},
       {"save-picture", "F12",
-       "save PNG and EXR as soon as the picture has full resolution and all samples"},
+       "save PNG and EXR as soon as the picture has full resolution and all samples; Esc ends the "
+       "wait"},
       {"reload", "R", "read the scene again, as a change of its file does; edits stay",
        call<&Session::reload>},
       {"open",
@@ -95,7 +95,9 @@ std::span<const Verb> Session::verbs() {
       {"panel", "P", "show the panel"},
       {"keys", "H", "show the keys"},
       {"full-screen", "F11", "full screen"},
-      {"close", "Esc", "close what is open; a window then quits, but asks before edits are lost"},
+      {"close", "Esc",
+       "give up what is read or awaited, close what is open; a window then quits, but asks before "
+       "edits are lost"},
 
       // These have controls instead of keys.
       {"time", "", "", [](S s, M m) { s.setTime(m.numbers[0]); }, {1, 0, 1e9}},

@@ -180,7 +180,8 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
   applySceneOptions(shown.options, {}, usual);
 
   std::string text = renderOf(scene, shown.name);
-  if (const DebugView view = frame.request.view; view != DebugView::none) {
+  const DebugView view = frame.request.view;
+  if (view != DebugView::none && view != DebugView::reference) {
     text = "whit-view " + quoted(scene) + " --view=" + entryOf(kDebugViewNames, view);
   }
   text = commandWith(text, options, usual);

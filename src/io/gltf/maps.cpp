@@ -349,7 +349,7 @@ struct MapRequest {
 
   // Returns null if there is no image, or none that can be read.
   std::shared_ptr<const RawImage> decoded(const GltfTexture& map, const Repeats& repeats) const {
-    const auto raw = map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
+    auto raw = map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
     if (!raw || repeats == Repeats()) return raw;
     return std::make_shared<const RawImage>(repeated(*raw, repeats, textures.limits()));
   }

@@ -132,9 +132,14 @@ class MtlParser {
   void readOption(std::string_view option, MtlMaterial::Map& map) {
     if (option == "-s") {
       readNumbers(map.scale);
-    } else if (option == "-o") {
+      return;
+    }
+    if (option == "-o") {
       readNumbers(map.offset);
-    } else if (option == "-t" || option == "-mm") {
+      return;
+    }
+
+    if (option == "-t" || option == "-mm") {
       Vec3f ignored;
       readNumbers(ignored, option == "-t" ? 3 : 2);
     } else if (option == "-bm") {
