@@ -305,8 +305,8 @@ std::vector<std::size_t> repeated(int texels, double times, double begin) {
   const double most = std::max(texels, 4096);
   const double count = std::clamp(std::round(std::abs(times) * texels), 1.0, most);
   std::vector<std::size_t> shown;
-  for (double at = 0.5; at < count; ++at) {
-    const double place = times * at / count + begin;
+  for (const auto i : indices(static_cast<std::size_t>(count))) {
+    const double place = times * (static_cast<double>(i) + 0.5) / count + begin;
     const double inImage = std::min(place - std::floor(place), 1 - 0.5 / texels);  // below 1
     shown.push_back(static_cast<std::size_t>(inImage * texels));
   }
