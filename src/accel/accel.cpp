@@ -141,7 +141,7 @@ Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& directi
   words[6][0] = hit.t;
   words[7][0] = hit.u;
   words[8][0] = hit.v;
-  RayColumns rays{words[0], words[1], words[2], words[3], words[4], words[5]};
+  RayColumns rays{{words[0], words[1], words[2]}, {words[3], words[4], words[5]}};
   parts.kernels.refineHits(parts.tables, rays, 1,
                            {triangle, words[6], words[7], words[8], instance});
   return {hit.triangle, hit.instance, words[6][0], words[7][0], words[8][0]};
