@@ -87,8 +87,11 @@ std::vector<float> traceOneByOne(const whit::EmbreeScene& scene, const Arrays& r
   return t;
 }
 
+struct VectorColumns {
+  const float *x, *y, *z;
+};
 struct PacketColumns {
-  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ;
+  VectorColumns org, dir;
 };
 
 std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& rays, int threads) {
@@ -118,7 +121,7 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
       }
 
       context.setRays(
-          PacketColumns{ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z});
+          PacketColumns{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}});
       context.trace(scene.top(), packet, live);
       for (std::size_t k = 0; k < kWidth && live[k] != 0; ++k) t[first + k] = ray.tfar[k];
     }
