@@ -125,17 +125,17 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
     auto base = Set(du, triangleBase[0]);
     if (hits.instance) {
       // Placement 0 is the world, which all other ids of Embree stand for; instances follow.
-      const auto id = hn::BitCast(di, load(packet_column::instance));
-      const auto before = hn::Set(di, static_cast<int32_t>(kFirstInstanceId) - 1);
-      const auto placed = hn::Max(hn::Sub(id, before), hn::Zero(di));
-      const auto instance = hn::Sub(placed, hn::Set(di, 1));
-      hn::StoreU(hn::BitCast(du, instance), du, hits.instance + i);
+      const auto id = BitCast(di, load(packet_column::instance));
+      const auto before = Set(di, static_cast<int32_t>(kFirstInstanceId) - 1);
+      const auto placed = Max(Sub(id, before), Zero(di));
+      const auto instance = Sub(placed, Set(di, 1));
+      StoreU(BitCast(du, instance), du, hits.instance + i);
 
       static_assert(kTriangleClasses == 4);
-      const auto ofClass = hn::And(hn::BitCast(di, geometry), hn::Set(di, 3));
+      const auto ofClass = And(BitCast(di, geometry), Set(di, 3));
       const auto* const bases = reinterpret_cast<const int32_t*>(triangleBase);
-      const auto index = hn::Add(hn::ShiftLeft<2>(placed), ofClass);
-      base = hn::BitCast(du, hn::GatherIndex(di, bases, index));
+      const auto index = Add(hn::ShiftLeft<2>(placed), ofClass);
+      base = BitCast(du, GatherIndex(di, bases, index));
     } else {
       for (uint32_t c = 1; c < kTriangleClasses; ++c) {
         const auto ofClass = Eq(geometry, Set(du, c));

@@ -265,14 +265,13 @@ struct MapHits {
 // Returns the surface at the hits of the `live` lanes, in the space of their geometry.
 HWY_INLINE Surface SurfaceAt(const SurfelJob& job, MF live, VI triangle, bool smooth, size_t i,
                              TriangleLanes& t, Weights& w) {
-  const FloatTag d;
   Surface s{};
-  s.handedness = hn::Set(d, 1.0f);
+  s.handedness = Set(1.0f);
 
   // Nothing is interpolated if all hits are on spheres.
   MF onTriangles = live;
-  if (job.spheres) onTriangles = hn::And(live, AreTriangles(triangle, job.tables.firstSphere));
-  if (!hn::AllFalse(d, onTriangles)) s = InterpolateSurface(job.tables, t, triangle, w, smooth);
+  if (job.spheres) onTriangles = And(live, AreTriangles(triangle, job.tables.firstSphere));
+  if (!AllFalse(onTriangles)) s = InterpolateSurface(job.tables, t, triangle, w, smooth);
   if (job.spheres) PutOnSpheres(job.tables, job.hits, live, triangle, i, s, t, w);
   return s;
 }

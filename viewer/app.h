@@ -45,7 +45,7 @@ class App {
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
-  ImageSize pictureSize() const {  // that the scene has
+  ImageSize pictureSize() const {  // size that the scene has
     const Scene& scene = session_.state().scene->scene;
     return {scene.width, scene.height};
   }

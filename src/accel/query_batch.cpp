@@ -1,9 +1,10 @@
 #include "accel/query_batch.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "core/index.h"
 
 namespace whit {
 

@@ -65,6 +65,7 @@ struct PlacedTriangle {
   bool turned = false;  // its corners run in the opposite direction, and one side alone is seen
 };
 
+// The hash of a triangle, and the triangle's index in a list of places.
 using HashedPlace = std::pair<std::uint64_t, std::size_t>;
 
 // Drops places whose hash no other place has. Two tables, of at least eight bits a place, find
@@ -310,7 +311,6 @@ class Baker {
     };
 
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
-    // Pairs of a hash and an index of `places`.
     std::vector<HashedPlace> order(places.size());
     for (const auto k : indices(order)) order[k] = {triangle(k).hash(), k};
     dropSingles(order);

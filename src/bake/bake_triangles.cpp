@@ -1,8 +1,9 @@
 #include "bake/bake_triangles.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/index.h"
 
 namespace whit {
 

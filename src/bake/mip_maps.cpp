@@ -125,7 +125,7 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights, int thread
     }
   };
 
-  constexpr std::size_t kRows = 64;  // of a task
+  constexpr std::size_t kRows = 64;  // rows of a task
   parallelFor(rows.size() > kRows ? threads : 1, (rows.size() + kRows - 1) / kRows,
               [&](std::size_t task, int) {
                 const std::size_t end = std::min((task + 1) * kRows, rows.size());

@@ -1,8 +1,9 @@
 #include "bake/texel_weights.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cstdint>
+
+#include "core/index.h"
 
 namespace whit {
 

@@ -1,8 +1,9 @@
 #include "core/display.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/index.h"
 
 namespace whit {
 

@@ -117,14 +117,15 @@ class Engine {
   std::optional<JsonDocument> document_;
 
   RenderOptions requested_;
-  // Names of the options in requested_ that the caller chose. Without this set, requested_ is complete.
+  // Names of the options in requested_ that the caller chose. Without this set, requested_ is
+  // complete.
   std::optional<std::set<std::string>> given_ = std::set<std::string>();
   RenderOptions options_;
   bool optionsChanged_ = true;
 
   double seconds_ = 0;
-  std::map<std::string, Affine> transforms_;  // by JSON pointer of the item
-  bool moved_ = false;                    // time or transforms have changed
+  std::map<std::string, Affine> transforms_;  // indexed by JSON pointer of the item
+  bool moved_ = false;                        // time or transforms have changed
   std::optional<Camera> lookedThrough_;
   std::optional<EarlierView> earlier_;
 

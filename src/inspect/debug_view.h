@@ -34,7 +34,7 @@ struct DebugPicture {
   int samples = 1;  // samples of each pixel
   std::vector<WatchedPixel> pixels;
   double low = 0, high = 0;      // the amounts that have the first and the last color
-  double largest = 0, mean = 0;  // of the pixels' differences from the reference, in 8-bit codes
+  double largest = 0, mean = 0;  // the pixels' differences from the reference, in 8-bit codes
 
   // "rays a pixel and sample, from 1 to 23"; empty for views without a scale.
   std::string legend() const;

@@ -1,7 +1,8 @@
 #include "io/polygon.h"
-#include "core/index.h"
 
 #include <numeric>
+
+#include "core/index.h"
 
 namespace whit {
 namespace {

@@ -1,5 +1,4 @@
 #include "io/smooth_normals.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +7,8 @@
 #include <numbers>
 #include <span>
 #include <vector>
+
+#include "core/index.h"
 
 namespace whit {
 namespace {

@@ -1,4 +1,5 @@
-// Opens a scene for a program, and prints warnings and the names of written files on standard error.
+// Opens a scene for a program, and prints warnings and the names of written files on standard
+// error.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,8 @@ std::unique_ptr<OpenScene> openAndWarn(const std::string& name, const cli::Commo
 // Warns of what pictureWarnings() finds.
 void printPictureWarnings(const RunSummary& run);
 
-// Prints the names of the files that were written, unless --quiet is set. Empty names and standard output are left out.
+// Prints the names of the files that were written, unless --quiet is set. Empty names and standard
+// output are left out.
 void printWrittenFiles(const std::vector<std::string>& files, const cli::CommonOptions& common);
 
 }  // namespace whit

@@ -1,11 +1,12 @@
 #include "sampling/sample_pattern.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <utility>
+
+#include "core/index.h"
 
 namespace whit {
 

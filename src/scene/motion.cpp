@@ -1,9 +1,10 @@
 #include "scene/motion.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+
+#include "core/index.h"
 
 namespace whit {
 namespace {

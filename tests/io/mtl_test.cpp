@@ -197,6 +197,18 @@ TEST_F(Mtl, OffsetAndScaleOfMaps) {
   EXPECT_EQ(kinds(), "");
 }
 
+// Maps of roughness are resampled for the coordinates of the color, if their offset is a number.
+TEST_F(Mtl, OffsetsThatAreNotFiniteAreNotResampled) {
+  save("c.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
+  for (const char* offset : {"inf", "-inf", "nan", "0 nan"}) {
+    save("m.mtl", std::string("newmtl m\nmap_Kd c.tga\nmap_Pr -o ") + offset + " c.tga\n");
+    const SceneDescription scene = loadObj(
+        "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+        "f 1/1 2/2 3/3\n");
+    EXPECT_FALSE(scene.materials.empty()) << offset;
+  }
+}
+
 // The material is metal on the left and plastic on the right, rough above and smooth below. The
 // emission map is a factor of Ke, and stands alone where Ke is 0.
 TEST_F(Mtl, MapsOfMetalnessRoughnessAndEmission) {

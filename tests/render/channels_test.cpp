@@ -390,8 +390,8 @@ TEST_P(Channels, FinishIsTheMaterialsOwn) {
   EXPECT_EQ(finishOf(Material()), (std::array{1.0f, 0.0f})) << "matte";
 }
 
-// The camera was (0.5, 0.25, 1) beside its present place; since then all vertices have moved by 0.75
-// along x.
+// The camera was (0.5, 0.25, 1) beside its present place; since then all vertices have moved by
+// 0.75 along x.
 TEST_P(Channels, MotionIsThatOfCameraAndVertices) {
   SceneDescription d = squareScene();
   Mesh& mesh = d.objects[0].meshes[0];

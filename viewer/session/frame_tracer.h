@@ -210,7 +210,7 @@ class FrameTracer {
   const bool warns_;  // of edits, on standard error
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
-  std::string warning_;                        // of edits, until a picture tells it
+  std::string warning_;                        // warning of edits, until a picture shows it
   Film band_;                                  // the film of measure()
   std::optional<Film> reference_;              // empty: not traced, or given up
   std::optional<FrameRequest> referenceFor_;   // the picture of reference_, without its view

@@ -17,7 +17,7 @@ struct SceneChoice {
   std::string name;
   std::vector<std::string> settings;
   std::string animation;                // empty: the first one
-  std::optional<std::string> sky = {};  // of a scene that is read again with its edits
+  std::optional<std::string> sky = {};  // sky of a scene that is read again with its edits
 };
 
 // Reads the scene and builds a renderer with these options. Throws as the reader and the renderer.

@@ -231,7 +231,6 @@ void Session::setWindow(const ImageSize& pixels, double height, double scale) {
   if (std::exchange(windowSize_, pixels) != pixels) restSeconds_ = 0;
 }
 
-// The message, what is being read or traced, and why the picture is black; empty: nothing.
 std::string Session::notice() const {
   std::string text;
   for (const std::string& part :
@@ -606,7 +605,11 @@ void Session::showReadScene() {
 }
 
 void Session::reload() {
-  if (!opening_.empty()) return open(opening_);  // state_.sceneName is still that of the old scene
+  // While another scene is read, state_.sceneName is still that of the old one.
+  if (!opening_.empty()) {
+    open(opening_);
+    return;
+  }
   if (state_.scene->isMade)
     throwUsage("the scene was made by a program: it cannot be read again here");
   // Edits stay.

@@ -282,11 +282,14 @@ std::optional<Repeats> repeatsOf(const GltfMaterial& m, const GltfTexture& textu
   r.v0 = own.v0 - r.v * from.v0;
 
   constexpr double kMost = 1e4, kRounding = 1e-6;
-  const auto isWhole = [](double x) {
-    return std::abs(x) < kMost && std::abs(x - std::round(x)) < kRounding;
+  const auto isRegular = [](double times, double begin, Wrap wrap) {
+    const bool isWhole = std::abs(times) < kMost && std::abs(times - std::round(times)) < kRounding;
+    const bool repeats = wrap == Wrap::repeat || (times == 1 && begin == 0);
+    return isWhole && repeats && std::isfinite(begin);
   };
   const bool isTurned = own.uv != 0 || own.vu != 0 || from.uv != 0 || from.vu != 0;
-  const bool fits = own.set == from.set && !isTurned && isWhole(r.u) && isWhole(r.v);
+  const bool fits = own.set == from.set && !isTurned && isRegular(r.u, r.u0, texture.wrapU) &&
+                    isRegular(r.v, r.v0, texture.wrapV);
   return fits ? std::optional(r) : std::nullopt;
 }
 

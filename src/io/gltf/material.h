@@ -139,8 +139,8 @@ struct Repeats {
   bool operator==(const Repeats&) const = default;
 };
 // Returns how to resample a texture of the material for the coordinates that it is looked up with,
-// because other textures already take both sets. None if its own are turned, of another set, or
-// repeat no whole number of times.
+// because other textures already take both sets. None if its own are turned, of another set, or not
+// finite, or if the image does not repeat, or no whole number of times.
 std::optional<Repeats> repeatsOf(const GltfMaterial& material, const GltfTexture& texture);
 // Returns true if a map that the material needs can neither be looked up with its own coordinates
 // nor be resampled.

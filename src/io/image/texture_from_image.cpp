@@ -1,11 +1,11 @@
 #include "io/image/texture_from_image.h"
-#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/display.h"
+#include "core/index.h"
 
 namespace whit {
 

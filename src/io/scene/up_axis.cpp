@@ -1,10 +1,10 @@
 #include "io/scene/up_axis.h"
 
-#include "core/index.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/index.h"
 
 namespace whit {
 namespace {
