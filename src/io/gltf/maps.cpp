@@ -321,6 +321,9 @@ RawImage repeated(const RawImage& raw, const Repeats& repeats, const ImageLimits
 
   const auto width = static_cast<std::size_t>(raw.width);
   const auto channels = static_cast<std::size_t>(raw.channels);
+  const std::size_t size = rows.size() * columns.size() * channels;
+  if (raw.linear) all.values.reserve(size);
+  if (!raw.linear) all.codes.reserve(size);
   for (const std::size_t row : rows) {
     for (const std::size_t column : columns) {
       const std::size_t first = (row * width + column) * channels;
