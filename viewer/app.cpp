@@ -32,8 +32,6 @@ App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Wi
   if (kept.panel) shown_.over = Over::panel;
 
   // The hint stays until a key or a click.
-  hints_ = session_.state().message.empty();
-  if (!hints_) return;
   session_.say("H: the keys, P: the panel. Drag to turn, the wheel goes forward",
                std::numeric_limits<double>::infinity());
 }

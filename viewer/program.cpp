@@ -3,8 +3,6 @@
 #include <cstdio>
 
 #include "command_line/help_text.h"
-#include "core/error.h"
-#include "core/text.h"
 #include "viewer/app.h"
 #include "viewer/start_screen.h"
 

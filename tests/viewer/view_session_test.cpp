@@ -96,6 +96,16 @@ TEST_F(Sessions, EditsOutliveAReload) {
   EXPECT_EQ(settings(), none_);
 }
 
+TEST_F(Sessions, EditsMadeWhileTheSceneIsReadAgainStay) {
+  session_->act("reload");
+  edit(lamp_[0]);
+  EXPECT_EQ(settings(), lamp_);
+  EXPECT_EQ(state().edited.settings, lamp_);
+
+  act("undo");
+  EXPECT_EQ(settings(), none_);
+}
+
 // The scene is read again, and before its picture is fetched another scene is to be opened.
 TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
   const std::string other = folder_ / "other.json";

@@ -292,6 +292,7 @@ Json ServedSession::liveJson() const {
   Json json{{"status", view::statusText(state)},
             {"message", told_},
             {"error", state.error},
+            {"errors", state.errors},
             {"sharp", state.sharp},
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},

@@ -45,8 +45,8 @@ class SceneReader {
   const cli::CommonOptions& common_;
   std::string text_;
   std::shared_ptr<LatestProgress> progress_;
-  std::future<std::unique_ptr<Engine>>
-      reading_;  // its end is waited for, also where it was given up
+  // Its end is waited for, also where it was given up.
+  std::future<std::unique_ptr<Engine>> reading_;
 };
 
 }  // namespace whit::view

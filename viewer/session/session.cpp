@@ -366,12 +366,8 @@ bool Session::fetchFrame() {
 
   if (!thread_.take(state_.shown)) return answered;
   state_.unfinished.reset();
-  if (state_.shown.scene != state_.scene) {
-    // An edit, too, may have had the scene read again.
-    const bool came = state_.shown.scene == coming_, elsewhere = came && !opening_.empty();
-    if (came) coming_.reset();
-    takeScene(elsewhere);
-    if (elsewhere) return false;  // the picture is from the camera of the other scene
+  if (state_.shown.scene != state_.scene && followScene()) {
+    return false;  // the picture is from the camera of the other scene
   }
 
   // An automatic exposure is measured once, and then stays while the view changes.
@@ -395,6 +391,25 @@ bool Session::fetchFrame() {
   rememberCosts();
   if (state_.shown.measured == 1) state_.measures = false;
   return true;
+}
+
+// Takes over the scene of the frame that was just fetched. Returns whether it is another one.
+bool Session::followScene() {
+  // An edit, too, may have had the scene read again.
+  const bool came = state_.shown.scene == coming_, elsewhere = came && !comingName_.empty();
+  if (came) coming_.reset();
+
+  const bool isOutdated = came && !elsewhere && edits_ != readEdits_;
+  const EditedScene wanted = state_.edited;
+  takeScene(elsewhere);
+
+  // Edits that were made while the scene was read again are made in the new one as well.
+  if (isOutdated) {
+    state_.edited = wanted;
+    past_.back() = present();
+    postEdit();
+  }
+  return elsewhere;
 }
 
 void Session::learnTimes() {
@@ -558,7 +573,7 @@ void Session::undo() {
 void Session::postEdit() {
   ++edits_;
   restSeconds_ = 0;
-  if (coming_) return;  // the scene that is shown is replaced
+  if (coming_) return;  // the scene that is shown is replaced; followScene() makes the edit
   thread_.edit({state_.scene, state_.edited.settings, state_.edited.givenSky});
 }
 
@@ -580,6 +595,7 @@ void Session::watchSceneFile() {
 void Session::load(const SceneChoice& choice) {
   state_.error.clear();
   state_.message.clear();
+  readEdits_ = edits_;
   reader_.read(choice, state_.options);
 }
 
@@ -595,6 +611,7 @@ void Session::showReadScene() {
     if (!scene) return;
 
     coming_ = scene->opened();
+    comingName_ = std::exchange(opening_, "");
     thread_.load(std::move(scene));
     ++reloads_;
     restSeconds_ = 0;
@@ -605,16 +622,23 @@ void Session::showReadScene() {
 }
 
 void Session::reload() {
-  // While another scene is read, state_.sceneName is still that of the old one.
-  if (!opening_.empty()) {
-    open(opening_);
+  // While another scene is on its way, state_.sceneName is still that of the old one.
+  std::string next = opening_;
+  if (next.empty() && coming_) next = comingName_;
+  if (!next.empty()) {
+    open(next);
     return;
   }
+
   if (state_.scene->isMade)
     throwUsage("the scene was made by a program: it cannot be read again here");
-  // Edits stay.
-  load({state_.sceneName, state_.edited.settings, state_.timeline.animation,
-        state_.edited.givenSky});
+
+  // Edits stay. Only what the user has chosen may be outside the scene's folder.
+  const EditedScene& edited = state_.edited;
+  const bool isEdited =
+      edited.settings != readSettings_ || edited.givenSky != options_.common.load.sky;
+  load({state_.sceneName, edited.settings, state_.timeline.animation,
+        isEdited ? std::optional(edited.givenSky) : std::nullopt});
 }
 
 void Session::setTime(double seconds) {
@@ -672,8 +696,7 @@ void Session::takeScene(bool elsewhere) {
   }
 
   // Another scene begins at its first camera and at its own time.
-  watch(opening_);
-  opening_.clear();
+  watch(comingName_);
   forgetRays();
   savedSettings_ = readSettings_ = state_.edited.settings;
   past_ = {present()};

@@ -227,6 +227,7 @@ class Session {
   void watchSceneFile();
   void showReadScene();
   void takeOptions(const Scene& last, bool elsewhere);
+  bool followScene();
   void takeScene(bool elsewhere);
 
   const ViewOptions& options_;
@@ -254,7 +255,9 @@ class Session {
 
   std::string opening_;                      // name of another scene while it is read
   std::shared_ptr<const OpenScene> coming_;  // was read, and no frame shows it yet; or null
+  std::string comingName_;                   // its name; empty: the scene shown was read again
   int reloads_ = 0, edits_ = 0;
+  int readEdits_ = 0;                       // edits_ when the last reading began
   std::vector<std::string> readSettings_;   // with which the scene was read first
   std::vector<std::string> savedSettings_;  // that a file or the command line holds
   std::vector<Past> past_;                  // the present state is the last one
