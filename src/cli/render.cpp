@@ -158,8 +158,10 @@ void addNamedChannels(RenderJob& job) {
     const std::optional<Channel> channel = channelNamedBy(output, kept);
     if (channel) named = named.with(*channel);
     holdsAll |= isExr && !channel;
-    refuseIf(channel && needsFloats(*channel) && !isExr,
-             "'" + output + "': " + namesOf({*channel}) + "s do not fit into a PNG: write an EXR");
+    if (channel && needsFloats(*channel) && !isExr) {
+      throwUsage("'" + output + "': " + namesOf({*channel}) +
+                 "s do not fit into a PNG: write an EXR");
+    }
 
     if (isJpeg(output)) requireNoChannelName(output);
   }
