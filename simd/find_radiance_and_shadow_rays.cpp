@@ -137,7 +137,7 @@ HWY_INLINE V3 UnderCoat(const Chunk& c, const V3& lobe, VF cosine, MF shiny, siz
   return Select3(coated, Mul3(lobe, Complement3(coat)), lobe);
 }
 
-// What the fog leaves of light from this distance.
+// Returns the share of the light from this distance that the fog lets through.
 HWY_INLINE V3 ThroughFog(const Fog& fog, VF distance) {
   const FloatTag d;
   const V3 density = Broadcast3(fog.density);

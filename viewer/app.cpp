@@ -138,7 +138,7 @@ void App::draw() {
   window_.begin();
   const ViewState& state = session_.state();
 
-  // What the user asks for is done when all is drawn.
+  // Widgets add lines for the session to `said`, which are carried out once everything is drawn.
   std::vector<std::string> said;
   const float bottom = drawBottom(said);
   if (state.shown.scene) {

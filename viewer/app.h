@@ -9,10 +9,10 @@
 
 namespace whit::view {
 
-// What is open over the picture.
+// At most one of these is open over the picture.
 enum class Over { nothing, panel, cameras, keys };
 
-// What the window shows besides the session's picture.
+// WindowState holds what the window shows besides the session's picture.
 struct WindowState : KeptSettings {
   Over over = Over::nothing;
   bool words = true;        // anything is written or drawn over the picture

@@ -45,7 +45,8 @@ inline RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfe
   return radiance * surfel.coverage;
 }
 
-// What fog adds, divided by what it leaves: the ray's weight is to multiply it.
+// Returns the radiance that fog adds, divided by the share of light that it lets through, because
+// the weight by which the result is multiplied contains that share.
 inline RgbD fogBefore(const World& world, const Chunk& chunk, std::size_t slot) {
   if (!world.effects.has(Effect::fog) || rayOf(chunk, slot).direction == Vec3d()) return {};
   if (chunk.has(Feature::transmission) && chunk.rays.media[slot] != 0) return {};

@@ -630,8 +630,9 @@ void Session::reload() {
     return;
   }
 
-  if (state_.scene->isMade)
+  if (state_.scene->isMade) {
     throwUsage("the scene was made by a program: it cannot be read again here");
+  }
 
   // Edits stay. Only what the user has chosen may be outside the scene's folder.
   const EditedScene& edited = state_.edited;

@@ -224,7 +224,7 @@ void setCoverage(const GltfMaterial& g, const GltfMeans& means, Material& m) {
   m.alphaCutoff = cuts && g.alpha > 0 ? std::min(g.alphaCutoff / g.alpha, 1.0f) : 0.5f;
   m.thin = g.transmission > 0 && g.thickness == 0;
 
-  // What blends is a sheet that is there in part.
+  // A blended surface is a thin sheet that covers a share of what is behind it.
   if (g.alphaMode == GltfMaterial::Alpha::blend) {
     m.coverage = std::min(g.alpha * means.alpha, 1.0f);
     m.thin = m.thin || means.alphaByMap;
