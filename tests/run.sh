@@ -4,9 +4,10 @@
 #                          where clang-format is: under six minutes on two cores once it is built
 #   tests/run.sh AREA...   the tests of these folders only, and of the build what they need
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
-#                          Clang, fuzzing, the Debian package in a clean system, and both commands of
-#                          README.md in fresh systems of Debian 12 and, with the tests of some areas,
-#                          Debian 13, whose compiler, Embree and Highway are others: forty minutes
+#                          Clang, fuzzing, the Debian package in a clean system, scenes/farm with a real
+#                          Slurm and over a real ssh, and both commands of README.md in fresh systems of
+#                          Debian 12 and, with the tests of some areas, Debian 13, whose compiler, Embree
+#                          and Highway are others: forty minutes
 #   tests/run.sh --deep    every test in the fresh systems a third time, as a user with sudo, and in
 #                          Clang's and g++'s other builds, Embree 4 with Clang, a deeper clang-tidy,
 #                          64-bit ARM and an older PC under emulation as well: more than an hour more
@@ -158,6 +159,7 @@ if $full; then
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
   step "package" tests/package.sh
+  step "farm engines" tests/farm_engines.sh build-package/whit
 fi
 if $deep; then
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
