@@ -158,8 +158,6 @@ std::string headOf(const Explained& e) {
          remarks + "\n";
 }
 
-Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
-
 Json lightJson(const Scene& scene, const LightContribution& light) {
   const char* const found = light.visible ? "lit" : "blocked";
   Json json{{"light", lightName(scene, light.light)},

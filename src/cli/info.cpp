@@ -16,8 +16,6 @@ namespace whit::cli {
 
 namespace {
 
-Json vectorJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
-
 // Every effect, whether it is on, and why.
 Json effectsJson(const Scene& scene, const RenderOptions& options) {
   Json effects;
@@ -64,9 +62,9 @@ Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& comm
             {"spheres", scene.instancedSpheres},
             {"instances", scene.instances.size()},
             {"bounds",
-             {{"lower", vectorJson(scene.inFile(Vec3d(scene.lower)))},
-              {"upper", vectorJson(scene.inFile(Vec3d(scene.upper)))}}},
-            {"origin", vectorJson(scene.origin)},
+             {{"lower", jsonOf(scene.inFile(Vec3d(scene.lower)))},
+              {"upper", jsonOf(scene.inFile(Vec3d(scene.upper)))}}},
+            {"origin", jsonOf(scene.origin)},
             {"materials", scene.materials.size()},
             {"material_names", namesIn(scene.materials)},
             {"objects", scene.items.count},

@@ -43,6 +43,16 @@ void warnNothingToDraw(const std::string& why, const std::string& file, Warnings
   warnings.add("model with nothing to draw: " + why, file);
 }
 
+void appendCopy(std::uint32_t vertex, Mesh& mesh) {
+  const auto append = [&](auto& values) {
+    if (!values.empty()) values.push_back(values[vertex]);
+  };
+  append(mesh.positions);
+  append(mesh.normals);
+  append(mesh.uvs);
+  append(mesh.colors);
+}
+
 void addParts(std::vector<Mesh> meshes, const std::vector<std::uint32_t>& materials,
               const std::string& file, MemoryBudget& budget, Body& to) {
   for (Mesh& mesh : meshes) {

@@ -114,6 +114,9 @@ std::unique_ptr<Model> openPly(const ModelSource& source);
 // Said once of a model that leaves the picture empty; `why` is a fixed phrase.
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings);
 
+// Appends a copy of the vertex, without second texture coordinates.
+void appendCopy(std::uint32_t vertex, Mesh& mesh);
+
 // Adds `meshes` as parts, their materials replaced by the scene's.
 void addParts(std::vector<Mesh> meshes, const std::vector<std::uint32_t>& materials,
               const std::string& file, MemoryBudget& budget, Body& to);

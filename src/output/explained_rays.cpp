@@ -5,6 +5,7 @@
 
 #include "core/index.h"
 #include "core/text.h"
+#include "output/json_report.h"
 #include "reference/media.h"
 
 namespace whit {
@@ -131,7 +132,6 @@ int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& opt
 
 Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
               const RenderOptions& options) {
-  const auto jsonOf = [](const RgbD& c) { return Json{c.x, c.y, c.z}; };
   const RayTree& tree = rays.packets;
   Json json{{"radiance", jsonOf(RgbD(tree.pixel))},
             {"codes", codesOf(tree.pixel, options)},

@@ -87,6 +87,8 @@ void addFrames(const RunSummary& run, Json& json) {
 
 }  // namespace
 
+Json jsonOf(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
+
 Json optionsJson(const RenderOptions& options) {
   Json json = Json::object();
   for (const auto& [name, value] : pictureOptions(options)) json[name] = value;

@@ -11,6 +11,8 @@ namespace whit {
 
 using Json = nlohmann::ordered_json;
 
+Json jsonOf(const Vec3d& v);  // [x, y, z]
+
 // The options that can change a picture: names and values as on the command line.
 Json optionsJson(const RenderOptions& options);
 // The machine and the build.

@@ -472,12 +472,11 @@ class ObjModel : public MeshModel {
   void copyVertex(std::uint32_t vertex, const GltfMaterial::Coordinates& coordinates) {
     constexpr std::uint64_t kBytes = 2 * sizeof(Vec3f) + 2 * sizeof(Vec2f) + 64;
     source_.budget.charge(1, kBytes, file_);
-    const Vec2f uv = mesh_.uvs[vertex];
-    mesh_.positions.push_back(mesh_.positions[vertex]);
-    if (!mesh_.normals.empty()) mesh_.normals.push_back(mesh_.normals[vertex]);
-    if (!mesh_.colors.empty()) mesh_.colors.push_back(mesh_.colors[vertex]);
+    appendCopy(vertex, mesh_);
+
     // The files' v points up, that of GltfUvMap down.
-    mesh_.uvs.push_back(coordinates.first.map(uv.x, 1.0 - uv.y));
+    const Vec2f uv = mesh_.uvs[vertex];
+    mesh_.uvs.back() = coordinates.first.map(uv.x, 1.0 - uv.y);
     if (!coordinates.areTwo()) return;
     mesh_.secondUvs.resize(mesh_.uvs.size());
     mesh_.secondUvs.back() = coordinates.second.map(uv.x, 1.0 - uv.y);

@@ -426,12 +426,10 @@ class PlyReader {
     if (!mapped && !hasFaceColors_) return;
     for (const auto i : indices(numbers_)) {
       budget_.charge(1, 2 * sizeof(Vec3f) + sizeof(Vec2f) + sizeof(Rgb), file_);
-      const std::size_t old = numbers_[i];
+      const std::uint32_t old = numbers_[i];
       numbers_[i] = static_cast<std::uint32_t>(mesh_.positions.size());
-      mesh_.positions.push_back(mesh_.positions[old]);
-      if (!mesh_.normals.empty()) mesh_.normals.push_back(mesh_.normals[old]);
-      if (!mesh_.uvs.empty()) mesh_.uvs.push_back(mesh_.uvs[old]);
-      if (!mesh_.colors.empty()) mesh_.colors.push_back(mesh_.colors[old]);
+      appendCopy(old, mesh_);
+
       if (hasFaceColors_) {
         mesh_.colors.back() = {face.values[kR], face.values[kG], face.values[kB]};
       }

@@ -24,6 +24,8 @@ Texture blank(ShapeParameters& parameters, int fallback, TexelFormat format) {
   return texture;
 }
 
+double fractionOf(double x) { return x - std::floor(x); }
+
 // Calls visit(u, v) at the texel centers, row by row from the top.
 template <typename Visitor>
 void forEachTexel(int side, Visitor&& visit) {
@@ -134,7 +136,7 @@ double frondShape(double u, double v, int leaflets) {
 
   // Leaflets slant towards the tip, and narrow outwards.
   const double along = (v - 0.28 * s) * leaflets;
-  const double across = std::fabs(along - std::floor(along) - 0.5) * 2;
+  const double across = std::fabs(fractionOf(along) - 0.5) * 2;
   return s < reach ? 0.86 - 0.62 * (s / reach) * (s / reach) - across : -1;
 }
 
@@ -169,7 +171,7 @@ Texture makeStripes(ShapeParameters& parameters) {
   const double share = parameters.number("share", 0.5, 0, 1);
 
   return paintColor(parameters, [=](double u, double) {
-    const double t = u * count - std::floor(u * count);
+    const double t = fractionOf(u * count);
     return t < share ? a : b;
   });
 }
@@ -188,8 +190,8 @@ Texture makeFabric(ShapeParameters& parameters) {
 
   return paintColor(parameters, [=](double u, double v) mutable {
     // Each cell of the weave has a diamond's outline and a small diamond in its middle.
-    const double fu = u * columns - std::floor(u * columns) - 0.5;
-    const double fv = v * rows - std::floor(v * rows) - 0.5;
+    const double fu = fractionOf(u * columns) - 0.5;
+    const double fv = fractionOf(v * rows) - 0.5;
     const double diamond = std::fabs(fu) + std::fabs(fv);
     const double weave = 0.92 + 0.08 * weaving(seed, 32 * u, 32 * v);
     const bool line = std::fabs(diamond - 0.36) < 0.035 || diamond < 0.10;
@@ -361,7 +363,7 @@ struct Layout {
     const int row = std::min(static_cast<int>(v * rows), rows - 1);
     const double x = u * columns + (row % 2 == 1 ? bond : 0.0);
     const int column = static_cast<int>(std::floor(x));
-    const double fu = x - std::floor(x), fv = v * rows - row;
+    const double fu = fractionOf(x), fv = v * rows - row;
 
     const double edge = std::min(std::min(fu, 1 - fu) / columns, std::min(fv, 1 - fv) / rows);
     return {column % columns, row, fu, fv, edge};
@@ -492,8 +494,8 @@ Texture makeRoof(ShapeParameters& parameters) {
   FractalNoise grains(4, 16);
 
   return paintColor(parameters, [=](double u, double v) mutable {
-    const double fu = u * columns - std::floor(u * columns);
-    const double fv = v * rows - std::floor(v * rows);
+    const double fu = fractionOf(u * columns);
+    const double fv = fractionOf(v * rows);
     const double own = unitHash(seed, static_cast<int>(u * columns), static_cast<int>(v * rows));
     const double grain = grains(seed + 2, 16 * u, 16 * v);
 
@@ -511,7 +513,7 @@ Texture makeRoofNormals(ShapeParameters& parameters) {
 
   // Rounded pans lie in overlapping rows.
   return paintNormals(parameters, [=](double u, double v) {
-    const double fu = u * columns - std::floor(u * columns), fv = v * rows - std::floor(v * rows);
+    const double fu = fractionOf(u * columns), fv = fractionOf(v * rows);
     return depth * (std::sqrt(std::max(0.0, 1 - 4 * (fu - 0.5) * (fu - 0.5))) - 0.6 * fv);
   });
 }
