@@ -160,7 +160,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   // Triangles are classified by the sides that are seen, so these are decided before baking.
   decideDoubleSided(d);
   if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
-  packTextures(d.textures, usableThreads());
+  for (Texture& texture : d.textures) texture.share();
 
   Scene scene;
   SceneContents& contents = d;
@@ -220,9 +220,7 @@ std::uint64_t Scene::memoryBytes() const {
                         bytesOf(sky.image.g) + bytesOf(sky.image.b) + coplanar.bytes() +
                         items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
-  for (const Texture& t : textures) {
-    bytes += t.late ? t.late->keptBytes() : t.packedSize() * sizeof(std::uint32_t);
-  }
+  for (const Texture& t : textures) bytes += t.shared->keptBytes();
   return bytes;
 }
 

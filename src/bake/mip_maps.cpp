@@ -118,10 +118,11 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights, int thread
       return;
     }
 
+    const std::uint32_t* const upper = &texture.rows()[2 * row * texture.width];
+    const std::uint32_t* const lower = upper + texture.width;
     for (int column = 0; column < texture.width; column += 2) {
-      const std::uint32_t* const four = texture.at(column, 2 * static_cast<int>(row));
-      const std::size_t down = texture.down();
-      *to++ = meanOfFour(texture.format, {four[0], four[1], four[down], four[down + 1]});
+      *to++ = meanOfFour(texture.format,
+                         {upper[column], upper[column + 1], lower[column], lower[column + 1]});
     }
   };
 

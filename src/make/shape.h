@@ -60,7 +60,7 @@ struct Shape {
 };
 
 using ShapeGenerator = Shape(ShapeParameters& parameters);
-// Reads the parameters; the texels are late.
+// Reads the parameters; the texels are made when they are needed.
 using PatternGenerator = Texture(ShapeParameters& parameters);
 
 // Returns all generators of shapes by the name used in scene files ("sphere", "terrain", ...).

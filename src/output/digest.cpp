@@ -84,19 +84,18 @@ void addTable(Digester& d, const Table& table) {
 }
 
 void add(Digester& d, const Texture& texture) {
-  const auto& [name, format, wrapU, wrapV, nearest, width, height, texels, late, strips, first] =
-      texture;
+  const auto& [name, format, wrapU, wrapV, nearest, width, height, texels, shared] = texture;
   add(d, format);
   add(d, wrapU);
   add(d, wrapV);
   add(d, nearest);
   add(d, width);
   add(d, height);
-  if (late) {
-    d.text(late->recipe);
-    return;
+  if (shared->recipe.empty()) {
+    addTable(d, shared->kept());
+  } else {
+    d.text(shared->recipe);
   }
-  d.bytes(strips.get() + first, texture.packedSize() * sizeof(std::uint32_t));
 }
 void add(Digester& d, const Geometry& geometry) {
   const auto& [position, index, classBegin, firstTriangle, firstSphere, spheres] = geometry;

@@ -164,34 +164,34 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
 
 constexpr TextureRecord kUnused{0, 1, 1, 0};
 
-TextureRecord recordOf(const Texture& t) {
-  return {static_cast<std::uint32_t>(t.firstTexel), t.width, t.height,
+TextureRecord recordOf(const Texture& t, std::size_t firstTexel) {
+  return {static_cast<std::uint32_t>(firstTexel), t.width, t.height,
           static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8 |
               (t.nearest ? kNearestTexel : 0)};
 }
 
-// Returns the textures of the scene, and makes the late texels of those that frames look up.
+// Returns the textures of the scene, and makes the texels that frames look up and nobody keeps.
 std::vector<Texture> madeTextures(const Scene& scene, const std::vector<ShownMap>& maps,
                                   int threads) {
   std::vector<Texture> textures = scene.textures;
-  std::set<Texture*> late;
+  std::set<Texture*> unmade;
   for (const ShownMap& map : maps) {
     Texture& texture = textures[map.texture];
-    if (texture.late) late.insert(&texture);
+    if (texture.shared && texture.shared->keptBytes() == 0) unmade.insert(&texture);
   }
 
   // The largest texture is begun first, so that no thread ends long after the others.
-  std::vector<Texture*> inOrder(late.begin(), late.end());
+  std::vector<Texture*> inOrder(unmade.begin(), unmade.end());
   std::ranges::stable_sort(inOrder, std::greater(), &Texture::texelCount);
   parallelFor(threads, inOrder.size(), [&](std::size_t i, int) {
-    inOrder[i]->texels = inOrder[i]->late->make();
-    inOrder[i]->late = nullptr;
+    inOrder[i]->texels = inOrder[i]->shared->make();
+    inOrder[i]->shared = nullptr;
   });
   return textures;
 }
 
-// Adds the textures that the materials of `tables` use: those of the scene, or where lookups are
-// trilinear, or texels were made, copies of them with their mip levels.
+// Adds copies of the textures that the materials of `tables` use, with their mip levels where
+// lookups are trilinear.
 void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingTables& tables) {
   static const TexelStrips none(new std::uint32_t[1]{});
   const bool trilinear = filter == TextureFilter::trilinear;
@@ -213,17 +213,16 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
     }
   }
 
-  if (std::ranges::any_of(levels, [](const Texture& t) { return !t.strips; })) {
-    packTextures(levels, threads);
-    for (const Texture& t : levels) tables.copiedTexels += t.packedSize();
-  }
-  tables.texels = levels.empty() ? none : levels.front().strips;
+  const PackedTexels packed = packTextures(levels, threads);
+  tables.copiedTexels = packed.count;
+  tables.texels = packed.strips ? packed.strips : none;
+  const auto record = [&](std::size_t i) { return recordOf(levels[i], packed.begins[i]); };
   for (const std::vector<std::size_t>& own : levelsOfMaps) {
-    tables.textures.push_back(recordOf(levels[own.front()]));
+    tables.textures.push_back(record(own.front()));
     if (!trilinear) continue;
 
     for (std::size_t level = 0; level < kMipStride; ++level) {
-      tables.mipLevels.push_back(recordOf(levels[own[std::min(level, own.size() - 1)]]));
+      tables.mipLevels.push_back(record(own[std::min(level, own.size() - 1)]));
     }
   }
   if (tables.textures.empty()) tables.textures.push_back(kUnused);

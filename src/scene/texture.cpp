@@ -34,10 +34,7 @@ std::uint32_t dataCode(float value) {
 }
 
 void copyTexels(const Texture& t, std::uint32_t* to) {
-  if (t.strips) {
-    std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
-    return;
-  }
+  const std::uint32_t* const rows = t.rows().data();
 
   // The columns of a strip overlap those of the next by one, so that each footprint lies in one
   // strip.
@@ -45,20 +42,19 @@ void copyTexels(const Texture& t, std::uint32_t* to) {
     std::array<int, kTexelStrip> columns{};
     for (int column = first; int& from : columns) from = wrapTexel(column++, t.width, t.wrapU);
     for (int row = -1; row <= t.height; ++row) {
-      const int from = wrapTexel(row, t.height, t.wrapV);
-      for (const int column : columns) *to++ = t.texel(column, from);
+      const std::uint32_t* const from = rows + cellsOf(wrapTexel(row, t.height, t.wrapV), t.width);
+      for (const int column : columns) *to++ = from[column];
     }
   }
 }
 
 }  // namespace
 
-const std::vector<std::uint32_t>& LateTexels::kept() const {
+void SharedTexels::keep() const {
   std::call_once(once_, [this] {
     kept_ = make_();
     keptBytes_ = kept_.size() * sizeof(kept_[0]);
   });
-  return kept_;
 }
 
 int wrapTexel(int texel, int size, Wrap wrap) {
@@ -75,33 +71,31 @@ Texture emptyTexture(const std::string& name, TexelFormat format, int width, int
   return texture;
 }
 
-void packTextures(std::vector<Texture>& textures, int threads) {
-  std::vector<std::size_t> begins;
-  std::size_t total = 0;
+PackedTexels packTextures(std::vector<Texture>& textures, int threads) {
+  PackedTexels packed;
+  std::size_t& total = packed.count;
 
   for (const Texture& t : textures) {
     if (std::max(t.width, t.height) > kTextureSideLimit) {
       throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
     }
-    begins.push_back(total);
-    if (!t.late) total += t.packedSize();
+    packed.begins.push_back(total);
+    total += t.packedSize();
     if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
   }
-  if (total == 0) return;
+  if (total == 0) return packed;
 
   HugePageAllocator<std::uint32_t> memory;
   const std::shared_ptr<std::uint32_t[]> strips(
       memory.allocate(total), [=](std::uint32_t* all) mutable { memory.deallocate(all, total); });
 
   parallelFor(threads, textures.size(), [&](std::size_t i, int) {
-    Texture& t = textures[i];
-    if (t.late) return;
-    copyTexels(t, strips.get() + begins[i]);
-    // The copied texels are freed at once, so that few textures are in memory twice.
-    t.texels = std::vector<std::uint32_t>();
-    t.strips = strips;
-    t.firstTexel = begins[i];
+    copyTexels(textures[i], strips.get() + packed.begins[i]);
+    textures[i].texels = std::vector<std::uint32_t>();
   });
+
+  packed.strips = strips;
+  return packed;
 }
 
 std::uint32_t encodeColorTexel(const Rgb& linear) {

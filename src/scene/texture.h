@@ -46,12 +46,12 @@ inline TexelFormat formatOf(TextureUse use) {
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
-// Packed textures share their texels, which begin at a multiple of 64 bytes. They lie in strips of
-// kTexelStrip columns, row after row, so that the four texels of a bilinear footprint are two
-// neighbors and the two that follow kTexelStrip texels later. A strip holds the kTexelCells columns
-// of footprints that begin in it whole, so that neighbors repeat a column of texels. Footprint (0,
-// 0) has its upper texels at (0, 0), the last its lower ones at (width - 1, height - 1); the texels
-// beyond the borders are those that the wrap modes name.
+// Kernels read texels in strips, which begin at a multiple of 64 bytes. A strip has kTexelStrip
+// columns, row after row, so that the four texels of a bilinear footprint are two neighbors and the
+// two that follow kTexelStrip texels later. A strip holds the kTexelCells columns of footprints
+// that begin in it whole, so that neighbors repeat a column of texels. Footprint (0, 0) has its
+// upper texels at (0, 0), the last its lower ones at (width - 1, height - 1); the texels beyond the
+// borders are those that the wrap modes name.
 using TexelStrips = std::shared_ptr<const std::uint32_t[]>;
 inline constexpr int kTexelStrip = 8, kTexelCells = kTexelStrip - 1;
 // A texture of this height has height + 2 rows, because footprints reach beyond either border.
@@ -59,20 +59,30 @@ inline constexpr int kTexelBorder = 2;
 // Kernels find strips in float: exact up to here.
 inline constexpr int kTextureSideLimit = 1 << 20;
 
-// Texels that are made when a frame or a mask needs them. Threads may ask at the same time.
-class LateTexels {
+// Texels that the copies of a texture share. They are given, or made when a frame or a mask needs
+// them. Threads may ask at the same time.
+class SharedTexels {
  public:
-  explicit LateTexels(std::function<std::vector<std::uint32_t>()> make) : make_(std::move(make)) {}
+  explicit SharedTexels(std::function<std::vector<std::uint32_t>()> make)
+      : make_(std::move(make)) {}
+  explicit SharedTexels(std::vector<std::uint32_t> texels)
+      : kept_(std::move(texels)), keptBytes_(kept_.size() * sizeof(kept_[0])) {}
 
   // Makes the texels for the caller alone, anew at each call.
   std::vector<std::uint32_t> make() const { return make_(); }
-  // Makes the texels at the first call and keeps them.
-  const std::vector<std::uint32_t>& kept() const;
+  // Makes the texels at the first call, unless they were given, and keeps them.
+  const std::vector<std::uint32_t>& kept() const {
+    if (keptBytes_ == 0) keep();
+    return kept_;
+  }
   std::uint64_t keptBytes() const { return keptBytes_; }
 
-  std::string recipe;  // everything that the texels depend on; digests tell textures apart by it
+  // Everything that texels which are made depend on; digests tell textures apart by it.
+  std::string recipe;
 
  private:
+  void keep() const;
+
   std::function<std::vector<std::uint32_t>()> make_;
   mutable std::once_flag once_;
   mutable std::vector<std::uint32_t> kept_;
@@ -88,22 +98,16 @@ struct Texture {
   bool nearest = false;  // its texels are not interpolated; smaller mip levels are
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
-  std::shared_ptr<LateTexels> late;  // stands for `texels` if it is set
-  // These take the place of `texels` in packTextures().
-  TexelStrips strips;
-  std::size_t firstTexel = 0;
+  std::shared_ptr<SharedTexels> shared;  // stands for `texels` if it is set
 
-  std::uint32_t texel(int column, int row) const { return *at(column, row); }
-  // The right neighbor of the texel that is returned follows it, and the lower one lies down()
-  // texels later, if the texture has them.
-  const std::uint32_t* at(int column, int row) const {
-    if (!strips) return &rows()[static_cast<std::size_t>(row) * width + column];
-    const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
-    return &strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
+  std::uint32_t texel(int column, int row) const {
+    return rows()[static_cast<std::size_t>(row) * width + column];
   }
-  std::size_t down() const { return static_cast<std::size_t>(strips ? kTexelStrip : width); }
-  // Returns the texels of a texture without strips.
-  const std::vector<std::uint32_t>& rows() const { return late ? late->kept() : texels; }
+  const std::vector<std::uint32_t>& rows() const { return shared ? shared->kept() : texels; }
+  // Lets copies of the texture share its texels.
+  void share() {
+    if (!shared) shared = std::make_shared<SharedTexels>(std::exchange(texels, {}));
+  }
   std::size_t texelCount() const { return std::size_t{1} * width * height; }
   // Returns the number of texels in its strips.
   std::size_t packedSize() const {
@@ -117,10 +121,16 @@ int wrapTexel(int texel, int size, Wrap wrap);
 // Returns a texture whose texels are 0.
 Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
 
-// Moves the texels of all textures into strips in one block of memory, one texture after the other,
-// so that few texels are in memory twice. Textures with late texels stay as they are. Throws
+struct PackedTexels {
+  TexelStrips strips;               // null without textures
+  std::vector<std::size_t> begins;  // the index of each texture's first texel
+  std::size_t count = 0;
+};
+
+// Copies the texels of all textures into strips in one block of memory. Texels that a texture does
+// not share are freed as soon as they are copied, so that few are in memory twice. Throws
 // Error(limit) when a 31-bit index does not reach all texels.
-void packTextures(std::vector<Texture>& textures, int threads);
+PackedTexels packTextures(std::vector<Texture>& textures, int threads);
 
 // Each function encodes a texel from channels in [0, 1], or radiance up to kLargestRadianceTexel.
 // Out-of-range and NaN channels are clamped.

@@ -125,7 +125,7 @@ struct ShadingTables {
   // kMipStride for each of `maps`, from the full texture on; none unless lookups are trilinear.
   std::vector<TextureRecord> mipLevels;
   TexelStrips texels;                        // at least one
-  std::size_t copiedTexels = 0;              // number of copied texels; the others are the scene's
+  std::size_t copiedTexels = 0;              // number of texels in the strips
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;

@@ -389,7 +389,7 @@ TEST_F(SceneSections, RecipesOfPatternsHoldTheValuesOfParameters) {
                        "}}, \"materials\": {\"m\": {\"diffuseMap\": \"c\"}}, \"scene\": ["
                        "{\"shape\": \"quad\", \"material\": \"m\"}]")
         .textures.at(0)
-        .late->recipe;
+        .shared->recipe;
   };
   EXPECT_EQ(recipeOf("\"$n\"", "3"), recipeOf("3", "4"));
   EXPECT_NE(recipeOf("\"$n\"", "3"), recipeOf("\"$n\"", "4"));

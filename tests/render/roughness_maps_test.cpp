@@ -56,11 +56,10 @@ TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
 
   // The green channel holds roughness.
   for (Texture& t : scene.textures) {
-    t.texels.assign(std::size_t{1} * t.width * t.height, encodeDataTexel(0, 1, 0, 0));
-    t.strips = nullptr;
+    t.shared = std::make_shared<SharedTexels>(
+        std::vector<std::uint32_t>(t.texelCount(), encodeDataTexel(0, 1, 0, 0)));
   }
 
-  packTextures(scene.textures, 1);
   const Image ones = render(scene, withSamples()).image;
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
   const Image none = render(scene, withSamples()).image;

@@ -68,10 +68,11 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
 
 Texture lateTexture(int& made) {
   Texture texture = makeTexture(TexelFormat::data, 1, 2, {0, 0xffffffffu});
-  texture.late = std::make_shared<LateTexels>([&made, texels = std::exchange(texture.texels, {})] {
-    ++made;
-    return texels;
-  });
+  texture.shared =
+      std::make_shared<SharedTexels>([&made, texels = std::exchange(texture.texels, {})] {
+        ++made;
+        return texels;
+      });
   return texture;
 }
 
@@ -98,6 +99,22 @@ TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
   EXPECT_EQ(colors, 1);
   EXPECT_EQ(masks, 1) << "masks are kept";
   EXPECT_EQ(tables.texels[tables.textures.at(0).firstTexel], 0xffffffffu) << "a row beyond the top";
+}
+
+TEST(TextureTables, TexelsThatAMaskKeepsAreNotMadeAgain) {
+  int made = 0;
+  SceneBuilder builder;
+  Material floor = diffuseMaterial(0.5f);
+  floor.diffuseMap = floor.alphaMap = builder.add(lateTexture(made));
+  floor.alphaCutoff = 0.5f;
+  builder.add(floorAt(0, 1, builder.add(floor)));
+  const Scene scene = builder.build();
+
+  const RayQueries queries(scene, 1, nullptr);
+  const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
+
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(tables.texels[tables.textures.at(0).firstTexel], 0xffffffffu);
 }
 
 // A floor has one row of texels that grow brighter from left to right.

@@ -74,7 +74,7 @@ inline Texture paint(const std::string& name, std::map<std::string, Value> value
   MapParameters parameters(std::move(values));
   Texture texture = patternGenerators().at(name)(parameters);
   if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
-  texture.texels = texture.late->make();
+  texture.texels = texture.shared->make();
   return texture;
 }
 

@@ -104,8 +104,7 @@ TEST(Finalize, CamerasOfTheSceneComeFirst) {
 TEST(Finalize, MemoryIsCounted) {
   SceneDescription d = sceneOf(square());
   d.textures.push_back(whiteTexture(TexelFormat::data));
-  // The texel is stored in a strip of 8 columns and 3 rows.
-  EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 24 * 4 + 12u);
+  EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 4 + 12u);
 }
 
 }  // namespace

@@ -69,26 +69,27 @@ enum GltfBakeImage {
 };
 using GltfBakeImages = std::array<std::shared_ptr<const RawImage>, kBakeImages>;
 
-struct Texel {
-  Rgb color{1, 1, 1};  // linear
-  std::array<float, 4> code{1, 1, 1, 1};
-};
-
 // Nearest texels of an image that is stretched to another size; white without an image.
 struct Stretched {
   const RawImage* raw;
   int width, height;
 
-  Texel at(std::size_t x, std::size_t y) const {
-    if (!raw) return {};
+  Rgb color(std::size_t x, std::size_t y) const {  // linear
+    return raw ? linearPixel(*raw, indexOf(x, y)) : Rgb(1.0f);
+  }
+  float value(std::size_t x, std::size_t y, std::size_t channel) const {  // of valuesAt()
+    return raw ? valuesAt(*raw, indexOf(x, y))[channel] : 1.0f;
+  }
+
+ private:
+  std::size_t indexOf(std::size_t x, std::size_t y) const {
     const auto own = [](std::size_t place, int from, int to) {  // divisions take time
       return from == to ? place
                         : place * static_cast<std::size_t>(to) / static_cast<std::size_t>(from);
     };
 
-    const std::size_t i = own(y, height, raw->height) * static_cast<std::size_t>(raw->width) +
-                          own(x, width, raw->width);
-    return {linearPixel(*raw, i), valuesAt(*raw, i)};
+    return own(y, height, raw->height) * static_cast<std::size_t>(raw->width) +
+           own(x, width, raw->width);
   }
 };
 
@@ -214,17 +215,17 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
 
   for (const auto y : indices(height)) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
-      const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
-      const Texel other = metals.at(x, y);
-      const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
+      const Rgb base = bases.color(x, y), tint = tints.color(x, y);
+      const float metalness = metals.value(x, y, 2), strength = speculars.value(x, y, 3);
+      const float metal = m.metallic * metalness;
 
       colors += RgbD(base);
-      metallic += other.code[2];
+      metallic += metalness;
       strengths += strength;
       tintSum += RgbD(tint);
 
       // Only light that is neither reflected by metal nor transmitted is reflected diffusely.
-      const float clear = clears.at(x, y).code[0], rest = 1 - metal;
+      const float clear = clears.value(x, y, 0), rest = 1 - metal;
       if (diffuseMap && !isPlain) {
         const float blocked = m.variesTransmission() ? 1 - m.transmission * clear : 1;
         const Rgb diffuse = base * ((m.mixesMetal() ? rest : 1) * blocked);

@@ -37,6 +37,21 @@ void fillColors(const RawImage& raw, std::vector<std::uint32_t>& texels) {
   }
 }
 
+// Data textures keep the codes of an image of 8-bit codes; see valuesAt() for missing channels.
+void fillData(const RawImage& raw, std::vector<std::uint32_t>& texels) {
+  const bool hasAlpha = raw.channels % 2 == 0;
+  const std::size_t green = raw.channels < 3 ? 0 : 1, blue = 2 * green;
+  const std::size_t alpha = static_cast<std::size_t>(raw.channels) - 1;
+
+  const std::uint8_t* codes = raw.codes.data();
+  for (std::uint32_t& texel : texels) {
+    const std::uint32_t opacity = hasAlpha ? codes[alpha] : 255u;
+    texel = std::uint32_t{codes[0]} | std::uint32_t{codes[green]} << 8 |
+            std::uint32_t{codes[blue]} << 16 | opacity << 24;
+    codes += raw.channels;
+  }
+}
+
 int cubeSide(const RawImage& raw) { return std::min(raw.width, raw.height / 6); }
 
 // Looks a cube map (OpenEXR, "Environment Maps") up bilinearly in a direction.
@@ -98,6 +113,10 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
   Texture texture = emptyTexture(name, format, raw.width, raw.height);
   if (format == TexelFormat::color && !raw.linear) {
     fillColors(raw, texture.texels);
+    return texture;
+  }
+  if (format == TexelFormat::data && !raw.linear) {
+    fillData(raw, texture.texels);
     return texture;
   }
 

@@ -61,7 +61,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
 
   readSampler(object, made);
   object.finish();
-  made.late->recipe = recipeOf(definition);
+  made.shared->recipe = recipeOf(definition);
   return made;
 }
 

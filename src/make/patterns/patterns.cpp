@@ -39,7 +39,7 @@ void forEachTexel(int side, Visitor&& visit) {
 // computed last. `codeOf` encodes what the formula returns for u and v.
 template <typename Formula, typename Code>
 Texture paint(Texture texture, const Formula& formula, const Code& codeOf) {
-  texture.late = std::make_shared<LateTexels>([formula, codeOf, side = texture.width] {
+  texture.shared = std::make_shared<SharedTexels>([formula, codeOf, side = texture.width] {
     Formula own = formula;
     std::vector<std::uint32_t> texels;
     texels.reserve(std::size_t{1} * side * side);
@@ -91,7 +91,7 @@ Texture paintNormals(ShapeParameters& parameters, const Formula& height) {
   Texture texture = blank(parameters, 512, TexelFormat::data);
   GenerationLimit::charge(texture.texelCount(), sizeof(double));
 
-  texture.late = std::make_shared<LateTexels>([height, side = texture.width] {
+  texture.shared = std::make_shared<SharedTexels>([height, side = texture.width] {
     Formula own = height;
     std::vector<double> heights;
     heights.reserve(std::size_t{1} * side * side);
