@@ -27,7 +27,8 @@ std::vector<double> readCounters(const std::vector<int>& files) {
     struct {
       std::uint64_t count, enabledTime, runningTime;
     } value{};
-    if (read(file, &value, sizeof value) < 0 || value.runningTime < value.enabledTime) return {};
+    const bool isWhole = read(file, &value, sizeof value) == ssize_t{sizeof value};
+    if (!isWhole || value.runningTime < value.enabledTime) return {};
     counts.push_back(static_cast<double>(value.count));
   }
   return counts;

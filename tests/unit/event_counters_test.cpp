@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <thread>
 
@@ -40,6 +41,34 @@ TEST(EventCounters, AreEmptyWhereThereAreNone) {
   constexpr PerfEvent kUnknown{"unknown", PERF_TYPE_SOFTWARE, 1u << 20};
   const std::array events{kPageFaults, kUnknown};
   EXPECT_TRUE(readCounters(openCounters(events)).empty());
+}
+
+// A pipe that holds these numbers in place of a counter, and ends after them.
+int counterOf(const std::vector<std::uint64_t>& numbers) {
+  int ends[2] = {-1, -1};
+  EXPECT_EQ(pipe(ends), 0);
+  const std::size_t size = numbers.size() * sizeof(std::uint64_t);
+  EXPECT_EQ(write(ends[1], numbers.data(), size), static_cast<ssize_t>(size));
+  close(ends[1]);
+  return ends[0];
+}
+
+// perf_event_open(2): the count, then the time enabled, then the time running.
+TEST(EventCounters, ReadWhatTheKernelWrites) {
+  const std::vector<int> files{counterOf({7, 1000, 1000}), counterOf({1u << 20, 5, 5})};
+  EXPECT_EQ(readCounters(files), (std::vector<double>{7, 1 << 20}));
+  for (const int file : files) close(file);
+}
+
+// An event that shared the processor's counters with others was not counted all the time, and a
+// counter in error state is at its end.
+TEST(EventCounters, AreEmptyWhereOneDidNotCount) {
+  for (const std::vector<std::uint64_t>& second :
+       {std::vector<std::uint64_t>{7, 1000, 999}, {7, 1000}, {}}) {
+    const std::vector<int> files{counterOf({7, 1000, 1000}), counterOf(second)};
+    EXPECT_TRUE(readCounters(files).empty()) << second.size();
+    for (const int file : files) close(file);
+  }
 }
 
 }  // namespace
