@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "exact_rays.h"
+#include "has_text.h"
 #include "library/whit.h"
 #include "library_scenes.h"
 #include "pi.h"
@@ -580,7 +581,7 @@ TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   // The camera of such a scene comes back.
   const Image first = renderer.set("size", "40x24").render();
   EXPECT_TRUE(samePictures(renderer.lookThrough(renderer.scene().camera()).render(), first));
-  EXPECT_NE(renderer.scene().camera().find("\"at\":[400000"), std::string::npos);
+  EXPECT_TRUE(hasText(renderer.scene().camera(), "\"at\":[400000"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "has_text.h"
 #include "io/image/image_file.h"
 #include "library_scenes.h"
 
@@ -125,7 +126,7 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   builder.addCamera("front", camera);
 
   Renderer renderer = smallRenderer(builder.build());
-  EXPECT_NE(renderer.scene().camera().find("equisolid"), std::string::npos);
+  EXPECT_TRUE(hasText(renderer.scene().camera(), "equisolid"));
   const Image round = renderer.render();
   EXPECT_FALSE(samePictures(round, plain));
 
