@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "core/machine_limits.h"
-#include "run_program.h"
+#include "has_text.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -26,11 +27,7 @@ void expectKeys(const Json& json, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(json.contains(key)) << key;
 }
 
-class JsonResults : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  std::string tiny_ = writeTinyScene(folder_);
-};
+class JsonResults : public TinySceneTest {};
 
 void checkRun(const Json& run) {
   expectKeys(run,
@@ -108,12 +105,11 @@ TEST_F(JsonResults, BenchAsATable) {
   const std::string csv = readFile(file);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 3) << csv;
   EXPECT_TRUE(csv.starts_with("scene,name,size,threads,packet,simd,mode,batch,robust,")) << csv;
-  EXPECT_NE(csv.find(",frame_ms_median,frame_ms_min,frame_ms_p95,fps,stages_ms_generateRays,"),
-            std::string::npos)
-      << csv;
-  EXPECT_NE(csv.find("\ntiny,,16x10,"), std::string::npos) << csv;
+  EXPECT_TRUE(
+      hasText(csv, ",frame_ms_median,frame_ms_min,frame_ms_p95,fps,stages_ms_generateRays,"));
+  EXPECT_TRUE(hasText(csv, "\ntiny,,16x10,"));
   for (const Json& run : json["runs"]) {
-    EXPECT_NE(csv.find(run["image_hash"].get<std::string>()), std::string::npos) << csv;
+    EXPECT_TRUE(hasText(csv, run["image_hash"].get<std::string>()));
     EXPECT_GE(run["other_tasks"].get<double>(), 0);
   }
 
@@ -179,7 +175,7 @@ TEST_F(JsonResults, CompareScene) {
 
 TEST_F(JsonResults, CompareFiles) {
   const std::string a = folder_ / "a.exr";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", a}).status, 0);
+  succeed({"render", tiny_, "-o", a});
   const Json json = resultOf({"compare", a, a, "--exposure", "1"});
 
   expectKeys(json, kCompareKeys);
@@ -196,7 +192,7 @@ TEST_F(JsonResults, CompareFiles) {
 
   // Two pictures of which one is darker have no code in common, or are both black.
   const std::string b = folder_ / "b.exr";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", b, "--set", "/lights/0/intensity=[1,1,1]"}).status, 0);
+  succeed({"render", tiny_, "-o", b, "--set", "/lights/0/intensity=[1,1,1]"});
   EXPECT_GT(resultOf({"compare", a, b})["max_code"], 0);
   EXPECT_EQ(resultOf({"compare", a, b, "--exposure", "-60"})["max_code"], 0);
 }
@@ -234,7 +230,7 @@ TEST_F(JsonResults, Scenes) {
 TEST_F(JsonResults, BenchCountsSpheres) {
   const Outcome outcome =
       runWhit({"bench", "whitted", "--size", "16x10", "--frames", "1", "--json", "-"});
-  EXPECT_NE(outcome.err.find("2 triangles, 3 spheres  "), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "2 triangles, 3 spheres  "));
   EXPECT_EQ(Json::parse(outcome.out)["runs"][0]["spheres"], 3);
 }
 
@@ -242,7 +238,7 @@ TEST_F(JsonResults, InfoOfSpheres) { EXPECT_EQ(resultOf({"info", "whitted"})["sp
 
 TEST_F(JsonResults, RenderWritesAFile) {
   const std::string image = folder_ / "a.png", file = folder_ / "a.json";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--depth", "3", "--json", file}).status, 0);
+  succeed({"render", tiny_, "-o", image, "--depth", "3", "--json", file});
   const Json json = Json::parse(readFile(file), nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   checkRun(json);
@@ -258,7 +254,7 @@ TEST_F(JsonResults, RenderWritesAFile) {
 
 TEST_F(JsonResults, RenderOfNothingButWhatIsThere) {
   const std::string image = folder_ / "a.png";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--resume"}).status, 0);
+  succeed({"render", tiny_, "-o", image, "--resume"});
   const Json json = resultOf({"render", tiny_, "-o", image, "--resume"});
   EXPECT_EQ(json["scene"], "tiny");
   EXPECT_EQ(json["frames"], 0);

@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/option_table.h"
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "has_text.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -24,12 +25,6 @@ Outcome picture(const std::string& scene, const std::string& image,
                 std::vector<std::string> words = {}) {
   words.insert(words.begin(), {"render", scene, "-o", image, "--quiet"});
   return runWhit(words);
-}
-
-std::map<std::string, std::string> statedIn(const std::string& image) {
-  std::map<std::string, std::string> all;
-  for (const auto& [name, text] : readExrMetadata(image)) all[name] = text;
-  return all;
 }
 
 RenderOptions settled(const std::map<std::string, std::string>& stated,
@@ -58,12 +53,10 @@ TEST(SceneOptions, AreThoseOfThePlainCommand) {
                        "--tonemap", "filmic"})
                   .status,
               0);
-    Warnings warnings;
-    EXPECT_EQ(readRawImage(plain, ImageLimits(), warnings).codes,
-              readRawImage(asked, ImageLimits(), warnings).codes);
+    EXPECT_EQ(storedIn(plain).codes, storedIn(asked).codes);
   }
 
-  const auto stated = statedIn(folder / "a.exr");
+  const auto stated = metadataOf(folder / "a.exr");
   EXPECT_EQ(stated.at("spp"), "2");
   EXPECT_EQ(stated.at("exposure"), "1.5");
 }
@@ -125,9 +118,7 @@ TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
     words.insert(words.begin(), {"info", scene});
     return runWhit(words).out;
   };
-  EXPECT_NE(info({}).find("options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"),
-            std::string::npos)
-      << info({});
+  EXPECT_TRUE(hasText(info({}), "options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"));
 
   const auto rows =
       nlohmann::json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
@@ -163,10 +154,8 @@ TEST(SceneOptions, AreResumedAndCropped) {
   // Crops merge to the whole only if both take the scene's options.
   ASSERT_EQ(picture(scene, folder / "l.exr", {"--crop", "0,0,20,32"}).status, 0);
   ASSERT_EQ(picture(scene, folder / "r.exr", {"--crop", "20,0,48,32"}).status, 0);
-  ASSERT_EQ(runWhit({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"}).status, 0);
-  Warnings warnings;
-  EXPECT_EQ(readRawImage(folder / "m.exr", ImageLimits(), warnings).codes,
-            readRawImage(image, ImageLimits(), warnings).codes);
+  succeed({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"});
+  EXPECT_EQ(storedIn(folder / "m.exr").codes, storedIn(image).codes);
 
   writeStating(folder, R"("spp": 3, "exposure": 1)");
   ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
@@ -178,7 +167,7 @@ TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
   const std::string scene = writeStating(folder, R"("background": "transparent")");
   const Outcome refused = picture(scene, folder / "a.jpg");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("has no alpha"), std::string::npos) << refused.err;
+  EXPECT_TRUE(hasText(refused.err, "has no alpha"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
 
   ASSERT_EQ(picture(scene, folder / "a.exr").status, 0);

@@ -185,7 +185,7 @@ TEST_F(Mtl, OffsetAndScaleOfMaps) {
       "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nvt 1 0\nvt 0 1\n"
       "usemtl moved\nf 1/1 2/2 3/3\nusemtl plain\nf 1/1 2/2 3/3\nusemtl two\nf 1/1 2/2 3/3\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.uvs[mesh.triangles[0][0]], (Vec2f{1.25f, 0.25f}));
   EXPECT_EQ(mesh.uvs[mesh.triangles[0][2]], (Vec2f{0.25f, 2.5f}));
   EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2f{0.5f, 0.25f}));

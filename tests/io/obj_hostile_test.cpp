@@ -67,7 +67,7 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
   for (const char* odd : {"nan", "-inf", "1e999", "NaN(7)"}) {
     const SceneDescription scene =
         loadObj(std::string(kTriangleObj) + "v 5 " + odd + " 5\nf 2 3 4\n");
-    const Mesh& mesh = scene.objects.at(0).meshes.at(0);
+    const Mesh& mesh = meshOf(scene);
     EXPECT_FALSE(isFinite(mesh.positions[mesh.triangles.at(1)[2]])) << odd;
 
     // The triangle of this position is dropped with a warning.

@@ -105,6 +105,11 @@ inline std::string tga(int width, int height, const std::vector<std::vector<int>
   return file;
 }
 
+// Returns the mesh of a scene that has a single one, or the first one.
+inline const Mesh& meshOf(const SceneDescription& scene) {
+  return scene.objects.at(0).meshes.at(0);
+}
+
 inline std::size_t triangleCount(const SceneDescription& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) {
