@@ -1,8 +1,7 @@
 // --channels as users run it.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "command_json.h"
 #include "has_text.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
@@ -13,7 +12,6 @@ namespace whit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 const std::string kAll = "depth,position,normal,albedo,uv,object,material,triangle,rays";
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "core/options.h"
 #include "embedded_data.h"
 #include "has_text.h"
@@ -13,8 +13,6 @@
 
 namespace whit::cli {
 namespace {
-
-using Json = nlohmann::json;
 
 class AbEffects : public TinySceneTest {};
 class EffectsCommand : public TinySceneTest {};
@@ -42,8 +40,7 @@ TEST_F(AbEffects, MeasuresTheSceneTwice) {
   }
   EXPECT_TRUE(hasText(table.out, "outside Embree"));
 
-  const Json json = Json::parse(
-      runWhit({"bench", tiny_, tiny_, "--ab-effects", "--frames", "2", "--json", "-"}).out);
+  const Json json = jsonOf({"bench", tiny_, tiny_, "--ab-effects", "--frames", "2"});
   ASSERT_EQ(json["runs"].size(), 4u);
   ASSERT_EQ(json["all_over_auto"].size(), 2u);
   for (std::size_t i = 0; i < 4; i += 2) {

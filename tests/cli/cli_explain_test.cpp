@@ -1,8 +1,7 @@
 // whit explain from the outside.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "command_json.h"
 #include "has_text.h"
 #include "run_command.h"
 
@@ -10,9 +9,9 @@ namespace whit::cli {
 namespace {
 
 // Returns what a node and all nodes below it add to the first channel of the pixel.
-double addedBelow(const nlohmann::json& node) {
+double addedBelow(const Json& node) {
   double sum = node["adds"][0].get<double>();
-  for (const nlohmann::json& child : node["children"]) sum += addedBelow(child);
+  for (const Json& child : node["children"]) sum += addedBelow(child);
   return sum;
 }
 
@@ -30,8 +29,8 @@ TEST_F(Explain, TellsTheTreeOfAPixel) {
   EXPECT_TRUE(hasText(outcome.out, "sky adds "));
 
   // What all rays add is the radiance of the pixel, and the scalar reference agrees with it.
-  const nlohmann::json json = nlohmann::json::parse(readFile(folder_ / "rays.json"));
-  const nlohmann::json& packets = json["packets"];
+  const Json json = Json::parse(readFile(folder_ / "rays.json"));
+  const Json& packets = json["packets"];
   const double radiance = packets["radiance"][0].get<double>();
   EXPECT_NEAR(addedBelow(packets["samples"][0]), radiance, 1e-6 * radiance);
   EXPECT_NEAR(json["reference"]["radiance"][0].get<double>(), radiance, 1e-3 * radiance);
@@ -54,40 +53,37 @@ TEST_F(Explain, WritesALesson) {
     succeed(joined({"explain", "--quiet", "--html", folder_ / "lesson.html"}, more));
     const std::string page = readFile(folder_ / "lesson.html"), start = "id=\"data\">";
     const std::size_t from = page.find(start) + start.size();
-    return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    return Json::parse(page.substr(from, page.find("</script>", from) - from));
   };
 
-  const nlohmann::json data =
+  const Json data =
       lesson({"whitted", "--size", "90x50", "--pixel", "30,20", "--spp", "2", "--tile", "16"});
-  EXPECT_EQ(data["tile"], nlohmann::json({16, 16, 32, 32}));
+  EXPECT_EQ(data["tile"], Json({16, 16, 32, 32}));
   // What the nodes add is the radiance of the pixel.
   for (std::size_t channel = 0; channel < 3; ++channel) {
     double sum = 0;
-    for (const nlohmann::json& node : data["tree"]["nodes"])
-      sum += node["adds"][channel].get<double>();
+    for (const Json& node : data["tree"]["nodes"]) sum += node["adds"][channel].get<double>();
     const double radiance = data["tree"]["radiance"][channel].get<double>();
     EXPECT_NEAR(sum, radiance, 1e-6 * radiance);
   }
 
-  std::vector<std::string> stages;
-  for (const nlohmann::json& step : data["recorded"]["steps"]) {
+  Words stages;
+  for (const Json& step : data["recorded"]["steps"]) {
     stages.push_back(step["stage"]);
     EXPECT_FALSE(step["columns"].empty()) << step["stage"];
-    for (const nlohmann::json& column : step["columns"]) {
+    for (const Json& column : step["columns"]) {
       EXPECT_EQ(column["values"].get<std::string>().size(), (16 * 16 * 4 + 2) / 3 * 4);
     }
   }
-  EXPECT_EQ(stages, (std::vector<std::string>{"generateRays", "findIntersections",
-                                              "writeEmittedAndReflectiveAmbient",
-                                              "findRadianceAndShadowRays", "checkShadows",
-                                              "addShading", "addImpulses", "updateImage"}));
+  EXPECT_EQ(stages, (Words{"generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
+                           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses",
+                           "updateImage"}));
   EXPECT_EQ(data["recorded"]["depths"][0], 256);
   EXPECT_GT(data["recorded"]["depths"][1], 0);
 
   // A scene without lights gives a lesson too, even for a ray that hits nothing.
-  const nlohmann::json bare =
-      lesson({tiny_, "--set", "/lights=[]", "--size", "8x8", "--pixel", "0,0"});
-  EXPECT_EQ(bare["tile"], nlohmann::json({0, 0, 8, 8}));
+  const Json bare = lesson({tiny_, "--set", "/lights=[]", "--size", "8x8", "--pixel", "0,0"});
+  EXPECT_EQ(bare["tile"], Json({0, 0, 8, 8}));
 }
 
 // The room is closed: each path of light between its walls ends by chance, by no other cause.
@@ -101,7 +97,7 @@ TEST_F(Explain, SaysThatRouletteEndsAPath) {
   const std::string json = readFile(folder_ / "rays.json");
   EXPECT_TRUE(hasText(json, "\"roulette\""));
   EXPECT_FALSE(hasText(json, "\"cutoff\""));
-  const nlohmann::json first = nlohmann::json::parse(json)["packets"]["samples"][0];
+  const Json first = Json::parse(json)["packets"]["samples"][0];
   for (const char* what : {"reflection", "refraction", "indirect"})
     EXPECT_TRUE(first["ends"].contains(what)) << what;
 }
@@ -127,7 +123,7 @@ TEST_F(Explain, ExplainsOneSampleOfMany) {
                            folder_ / "rays.json"},
                           more))
                .out;
-    return nlohmann::json::parse(readFile(folder_ / "rays.json"))["packets"]["samples"].size();
+    return Json::parse(readFile(folder_ / "rays.json"))["packets"]["samples"].size();
   };
 
   std::string said;

@@ -102,7 +102,7 @@ TEST_F(Images, MetadataMakesTheImageAgain) {
   render({tiny_, "-o", folder_ / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff",
           "0.01", "--spp", "2", "--disable", "shadows"});
 
-  std::vector<std::string> words{tiny_, "-o", folder_ / "b.exr"};
+  Words words{tiny_, "-o", folder_ / "b.exr"};
   // These members describe the picture, but no option sets them.
   const std::set<std::string> noOptions{"software", "scene", "sceneDigest", "effectsUsed",
                                         "strict"};
@@ -118,7 +118,7 @@ TEST_F(Images, MetadataMakesTheImageAgain) {
 TEST_F(Images, CropsMergeToTheWhole) {
   render({tiny_, "-o", folder_ / "whole.exr"});
   const char* crops[] = {"0,0,20,32", "20,0,48,10", "20,10,48,32"};
-  std::vector<std::string> merge{"merge", folder_ / "merged.exr"};
+  Words merge{"merge", folder_ / "merged.exr"};
   for (const char* crop : crops) {
     merge.push_back(folder_ / (std::string(crop) + ".exr"));
     render({tiny_, "-o", merge.back(), "--crop", crop});
@@ -151,7 +151,7 @@ ino_t fileNumber(const std::string& path) {
 TEST_F(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
   for (const std::string type : {".exr", ".png"}) {
     const auto frame = [&](int i) { return folder_ / ("f-" + std::to_string(i) + type); };
-    std::vector<std::string> words{tiny_, "-o", folder_ / ("f-#" + type), "--frames", "0..5"};
+    Words words{tiny_, "-o", folder_ / ("f-#" + type), "--frames", "0..5"};
     render(words);
 
     std::vector<std::string> whole;
@@ -181,7 +181,7 @@ TEST_F(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
                                         {"--simd", simd::availableTargets().front()}}) {
       if (value == narrowest) continue;  // the machine has a single target
       std::ofstream(frame(5), std::ios::binary) << others;
-      std::vector<std::string> asked = words;
+      Words asked = words;
       asked.insert(asked.end(), {option, value});
       render(asked);
       EXPECT_FALSE(readFile(frame(5)) == others) << option;
@@ -190,8 +190,8 @@ TEST_F(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
 }
 
 TEST_F(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
-  const std::vector<std::string> words{
-      tiny_, "-o", folder_ / "a.exr", "-o", folder_ / "a.png", "--crop", "8,4,40,20", "--resume"};
+  const Words words{tiny_,    "-o",        folder_ / "a.exr", "-o", folder_ / "a.png",
+                    "--crop", "8,4,40,20", "--resume"};
   render(words);
   const ino_t first = fileNumber(folder_ / "a.exr");
   render(words);
@@ -255,8 +255,8 @@ TEST_F(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
 // Frames alternate between two films. With memory for one film only, each frame is written before
 // the next one is traced.
 TEST_F(Images, FramesDoNotDependOnWhetherTheyAreWrittenBesideTheNext) {
-  std::vector<std::string> words{
-      tiny_, "-o", folder_ / "two-#.exr", "--frames", "0..4", "--fps", "4", "--size", "480x320"};
+  Words words{tiny_,    "-o",     folder_ / "two-#.exr", "--frames", "0..4", "--fps", "4",
+              "--size", "480x320"};
   render(words);
   // The limit is enough for one film, but not for two.
   words[2] = folder_ / "one-#.exr";

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "has_text.h"
 #include "picture_file.h"
 #include "run_command.h"
@@ -31,8 +31,7 @@ class Models : public TinySceneTest {
 
 TEST_F(Models, InfoNamesTheSky) {
   const auto sky = [](const Words& more) {
-    return nlohmann::json::parse(runWhit(joined({"info", "--json", "-"}, more)).out)["sky"]
-        .get<std::string>();
+    return jsonOf(joined({"info"}, more))["sky"].get<std::string>();
   };
 
   EXPECT_EQ(sky({model_}), "studio");
@@ -59,14 +58,13 @@ TEST_F(Models, VariantsAreListedAndChosen) {
       "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
-  const nlohmann::json listed =
-      nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["variants"];
-  EXPECT_EQ(listed, nlohmann::json::parse(R"(["plain", "glowing \"red\""])"));
+  const Json listed = jsonOf({"info", model})["variants"];
+  EXPECT_EQ(listed, Json::parse(R"(["plain", "glowing \"red\""])"));
   EXPECT_TRUE(hasText(runWhit({"info", model}).out, "variant     plain\n"));
 
   const auto effects = [&](const std::string& variant) {
     const Outcome info = runWhit({"info", model, "--variant", variant, "--json", "-"});
-    return nlohmann::json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
+    return Json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
   };
   EXPECT_FALSE(effects("plain"));
   EXPECT_TRUE(effects("glowing \"red\""));
@@ -89,7 +87,7 @@ TEST_F(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
   EXPECT_NE(ev, "auto");
   EXPECT_NE(ev, "0");
   EXPECT_EQ(metadataOf(a).at("terminator"), "on");
-  EXPECT_EQ(nlohmann::json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
+  EXPECT_EQ(Json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
   EXPECT_TRUE(hasText(first.err, "exposure "));
   EXPECT_FALSE(hasText(first.err, "exposure 0"));
 
@@ -161,8 +159,7 @@ TEST_F(Models, TakeACameraFromAFile) {
 }
 
 TEST_F(Models, TheirCamerasHaveMembersToSet) {
-  const auto cameras =
-      nlohmann::json::parse(runWhit({"info", model_, "--json", "-"}).out)["cameras"];
+  const auto cameras = jsonOf({"info", model_})["cameras"];
   ASSERT_EQ(cameras.size(), 1u);
   const std::string pointer = "/cameras/" + cameras[0].get<std::string>();
   const auto narrow = codesOf(model_, {"--set", pointer + "/fov=20"});

@@ -1,8 +1,7 @@
 // Films of a scene that moves: each frame follows from its time alone.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "command_json.h"
 #include "has_text.h"
 #include "io/gltf_files.h"
 #include "picture_file.h"
@@ -84,14 +83,13 @@ TEST_F(Motion, AShippedFilmHasTheSameFramesInParts) {
 TEST_F(Motion, IsTimedAndListed) {
   const Outcome info = runWhit({"info", moving_});
   EXPECT_TRUE(hasText(info.out, "animation   up: 2 s, moves 2 nodes\n"));
-  const nlohmann::json listed =
-      nlohmann::json::parse(runWhit({"info", moving_, "--json", "-"}).out)["animations"];
-  EXPECT_EQ(listed, nlohmann::json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
+  const Json listed = jsonOf({"info", moving_})["animations"];
+  EXPECT_EQ(listed, Json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
 
   const Outcome film = runWhit({"render", moving_, "-o", folder_ / "f#.png", "--frames", "0..1",
                                 "--size", "32x20", "--stats", "--json", folder_ / "f.json"});
   EXPECT_TRUE(hasText(film.err, "updateScene"));
-  EXPECT_GT(nlohmann::json::parse(readFile(folder_ / "f.json"))["updateScene_ms"], 0);
+  EXPECT_GT(Json::parse(readFile(folder_ / "f.json"))["updateScene_ms"], 0);
 }
 
 TEST_F(Motion, ACameraPathIsLookedAlongAtAnInstant) {

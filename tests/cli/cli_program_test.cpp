@@ -55,7 +55,7 @@ TEST_F(Program, NamesTheNearestCommandAndOption) {
 }
 
 TEST_F(Program, WordsOfOtherProgramsLeadToOurs) {
-  for (const auto& [words, meant] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+  for (const auto& [words, meant] : std::vector<std::pair<Words, std::string>>{
            {{"render", "whitted", "--samples", "4"}, "did you mean '--spp'?"},
            {{"render", "whitted", "--width=100"}, "did you mean '--size'?"},
            {{"render", "whitted", "--ao", "4"}, "did you mean '--ambient-samples'?"},
@@ -115,7 +115,7 @@ TEST_F(Program, ListsTheShippedScenes) {
 
 TEST_F(Program, SaysWhatItWrote) {
   const std::string one = folder_ / "a.png", frames = folder_ / "f##.png";
-  const auto expectLine = [&](std::vector<std::string> words, const std::string& start) {
+  const auto expectLine = [&](Words words, const std::string& start) {
     const std::string err = runWhit(std::move(words)).err;
     EXPECT_TRUE(err.starts_with(start)) << err;
     EXPECT_EQ(std::ranges::count(err, '\n'), 1) << err;
@@ -212,7 +212,7 @@ TEST_F(Program, EveryExitStatusHasACause) {
   const std::string picture = folder_ / "a.exr";
   std::ofstream(folder_ / "bad.json") << "{";
 
-  const std::map<int, std::vector<std::string>> causes{
+  const std::map<int, Words> causes{
       {0, {"render", tiny_, "-o", picture, "--quiet"}},
       {1, {"compare", picture, folder_ / "b.exr", "--tolerance", "0"}},
       {2, {"render", tiny_, "--spp", "0"}},

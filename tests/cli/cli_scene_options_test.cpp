@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "core/option_table.h"
 #include "has_text.h"
 #include "picture_file.h"
@@ -21,8 +21,7 @@ std::string writeStating(const TemporaryFolder& folder, const std::string& optio
   return folder / "stating.json";
 }
 
-Outcome picture(const std::string& scene, const std::string& image,
-                std::vector<std::string> words = {}) {
+Outcome picture(const std::string& scene, const std::string& image, Words words = {}) {
   words.insert(words.begin(), {"render", scene, "-o", image, "--quiet"});
   return runWhit(words);
 }
@@ -114,14 +113,14 @@ TEST(SceneOptions, AreThoseThatDescribeThePicture) {
 TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
   const TemporaryFolder folder;
   const std::string scene = writeStating(folder, R"("spp": 8, "indirect": 4, "glossy": 2)");
-  const auto info = [&](std::vector<std::string> words) {
+  const auto info = [&](Words words) {
     words.insert(words.begin(), {"info", scene});
     return runWhit(words).out;
   };
   EXPECT_TRUE(hasText(info({}), "options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"));
 
   const auto rows =
-      nlohmann::json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
+      Json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
   const auto row = [&](const char* name) {
     return rows[name]["value"].get<std::string>() + " " + rows[name]["from"].get<std::string>();
   };
@@ -130,10 +129,7 @@ TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
   EXPECT_EQ(row("glossy"), "3 command line");
   EXPECT_EQ(row("indirect"), "4 scene");
   EXPECT_FALSE(rows.contains("depth"));
-  EXPECT_EQ(
-      nlohmann::json::parse(runWhit({"info", folder / "tiny.json", "--json", "-"}).out)["options"]
-          .size(),
-      0u);
+  EXPECT_EQ(jsonOf({"info", folder / "tiny.json"})["options"].size(), 0u);
 }
 
 TEST(SceneOptions, AreResumedAndCropped) {
@@ -178,8 +174,7 @@ TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
 TEST(SceneOptions, AreNotMeasured) {
   const TemporaryFolder folder;
   const std::string scene = writeStating(folder, R"("spp": 4)");
-  const auto run = nlohmann::json::parse(
-      runWhit({"bench", scene, "--frames", "1", "--json", "-", "--quiet"}).out)["runs"][0];
+  const auto run = jsonOf({"bench", scene, "--frames", "1", "--quiet"})["runs"][0];
   EXPECT_EQ(run["rays"]["primary"], 48 * 32) << run.dump();
 }
 

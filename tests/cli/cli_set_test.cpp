@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "has_text.h"
 #include "picture_file.h"
 #include "run_command.h"
@@ -52,14 +52,13 @@ TEST_F(Set, ImagesTellOfItAndResumingKnows) {
 }
 
 TEST_F(Set, EveryCommandTakesIt) {
-  const auto jsonOf = [](const Words& words) {
-    return nlohmann::json::parse(
-        succeed(joined(words, {"--quiet", "--json", "-", "--set", kMatte})).out);
+  const auto matte = [](const Words& words) {
+    return jsonOf(joined(words, {"--quiet", "--set", kMatte}));
   };
 
-  EXPECT_FALSE(jsonOf({"info", tiny_})["effects"]["mirror"]["on"].get<bool>());
-  EXPECT_EQ(jsonOf({"bench", tiny_, "--frames", "1"})["runs"][0]["rays"]["reflection"], 0);
-  EXPECT_EQ(jsonOf({"compare", tiny_})["nonfinite"], 0);
+  EXPECT_FALSE(matte({"info", tiny_})["effects"]["mirror"]["on"].get<bool>());
+  EXPECT_EQ(matte({"bench", tiny_, "--frames", "1"})["runs"][0]["rays"]["reflection"], 0);
+  EXPECT_EQ(matte({"compare", tiny_})["nonfinite"], 0);
 
   succeed(
       {"effects", tiny_, "--out", folder_ / "made", "--frames", "1", "--set", kMatte, "--quiet"});

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "core/option_table.h"
 #include "has_text.h"
 #include "io/files.h"
@@ -15,7 +15,6 @@ namespace whit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 // Writes a program named ffmpeg, which is found before all others.
 void writeProgram(const TemporaryFolder& folder, const std::string& text) {
@@ -42,8 +41,8 @@ Vec3f eyeOf(const std::string& file) {
   return eye;
 }
 
-std::vector<std::string> namesIn(const TemporaryFolder& folder) {
-  std::vector<std::string> names;
+Words namesIn(const TemporaryFolder& folder) {
+  Words names;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
     names.push_back(entry.path().filename().string());
   }
@@ -114,7 +113,7 @@ TEST(TurntableCommand, WithoutFfmpegThereIsNoFilm) {
       turn(cubeObj(folder), {"-o", folder / "film.mp4", "--count", "3"}, "/nonexistent");
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_TRUE(hasText(outcome.err, "ffmpeg"));
-  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
 }
 
 TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
@@ -127,7 +126,7 @@ TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
              programs.path().string() + ":/usr/bin:/bin");
     EXPECT_EQ(outcome.status, 4) << outcome.err;
     EXPECT_TRUE(hasText(outcome.err, said));
-    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+    EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
   };
   expectFailure("echo no such codec >&2; exit 1", "no such codec");  // ffmpeg ends at once
   expectFailure("cat >/dev/null; echo the disk is full >&2; exit 3", "the disk is full");
@@ -148,18 +147,17 @@ TEST(TurntableCommand, AnInterruptionLeavesNothing) {
   ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));
   kill(child, SIGTERM);
   EXPECT_EQ(waitFor(child), 130);
-  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
 }
 
 TEST(TurntableCommand, WrongUsageIsSaid) {
   const TemporaryFolder folder;
   const std::string cube = cubeObj(folder);
-  const auto refuse = [&](int status, const std::string& why,
-                          const std::vector<std::string>& words) {
+  const auto refuse = [&](int status, const std::string& why, const Words& words) {
     const Outcome outcome = turn(cube, words);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_TRUE(hasText(outcome.err, why));
-    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+    EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
   };
 
   refuse(2, "expected a file to write", {});

@@ -149,7 +149,7 @@ TEST(DeadEnds, EachErrorLeadsOn) {
   for (const DeadEnd& end : kDeadEnds) {
     SCOPED_TRACE(std::string("whit ") + end.line);
     std::istringstream line(end.line);
-    const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+    const Words words{std::istream_iterator<std::string>(line), {}};
 
     const TemporaryFolder folder;
     const auto enter = [&] { (void)chdir(folder.path().c_str()); };

@@ -5,22 +5,21 @@
 
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "cli/commands.h"
+#include "command_json.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "has_text.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
-#include "run_program.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
 const std::map<std::string, int (*)(const Words&)> kCommands{
