@@ -182,7 +182,7 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   EXPECT_GT(whittedScene().materials().size(), 0u);
 
   const TemporaryFolder folder;
-  const std::string path = folder.file("channels.exr");
+  const std::string path = folder / "channels.exr";
   image.write(path);
   const std::vector<ImageLayer> layers = readLayers(path, ImageLimits());
   ASSERT_EQ(layers.size(), 3u);
@@ -288,7 +288,7 @@ TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
 
 TEST(Library, ScenesThatAreNotGoodSayWhere) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("bad.json");
+  const std::string file = folder / "bad.json";
   std::ofstream(file) << R"({"whit": 1, "size": ["wide", 3]})";
   const Error error = errorOf([&] { loadScene(file); });
   EXPECT_EQ(error.status(), 3);
@@ -341,9 +341,9 @@ std::string writeLoose(const std::filesystem::path& file, const std::string& pla
 // Objects that setTransform() places give the picture of a file that states the same places.
 TEST(Library, ThingsAreMovedByHand) {
   const TemporaryFolder folder;
-  const std::string loose = writeLoose(folder.file("loose.json"), "");
+  const std::string loose = writeLoose(folder / "loose.json", "");
   const std::string placed = writeLoose(
-      folder.file("placed.json"),
+      folder / "placed.json",
       ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
 
   LoadOptions moving;

@@ -552,7 +552,7 @@ TEST(RayQueries, SeeFromSurfaceToSurface) {
 // A model that was moved to the origin is asked, and answers, in coordinates of its file.
 TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   const TemporaryFolder folder;
-  const std::string model = folder.file("far.obj");
+  const std::string model = folder / "far.obj";
   std::ofstream(model) << "v 4000000.1 500000.2 10\nv 4000001.1 500000.2 10\n"
                           "v 4000000.1 500001.2 10\nf 1 2 3\n";
   Renderer renderer(loadScene(model, {.settings = {"/up=\"y\""}}));

@@ -166,12 +166,10 @@ TEST_F(Mtl, DamagedLinesAreLeftOut) {
   }
 
   // With --strict the warning becomes an error.
-  Warnings strict(true);
   save("m.mtl", "newmtl m\nKd 0.5\nmap_Kd\n");
   const std::string file = save("m.obj", std::string("mtllib m.mtl\n") + kTriangleObj);
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
-            "3 m.mtl:3: expected the name of a file after \"map_Kd\": " + kind +
-                " (refused by --strict)");
+  EXPECT_EQ(errorIfStrict(file), "3 m.mtl:3: expected the name of a file after \"map_Kd\": " +
+                                     kind + " (refused by --strict)");
 }
 
 // The texture has one texel. Its coordinates become u' = 0.25 + 2 u and v' = -0.5 + 3 v.

@@ -9,10 +9,6 @@ namespace {
 
 class ObjHostile : public SceneFileTest {
  protected:
-  std::string errorOfObj(const std::string& text) {
-    return errorOf([&] { loadObj(text); });
-  }
-
   std::string placeOf(const std::string& kind) {
     const auto entries = warnings_.entries();
     const auto entry = entries.find(kind);
@@ -81,9 +77,8 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
 }
 
 TEST_F(ObjHostile, StrictRefusesWhatWouldBeMended) {
-  Warnings strict(true);
   const std::string file = save("m.obj", std::string(kTriangleObj) + "f 1 2 4\n");
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+  EXPECT_EQ(errorIfStrict(file),
             "3 m.obj:5: face with a vertex index out of range dropped (refused by --strict)");
 }
 
@@ -108,9 +103,8 @@ TEST_F(ObjHostile, NothingToDrawIsSaidWithItsReason) {
   loadObj("v 0 0 0\nf 1 1 9\n");
   EXPECT_EQ(warned("model with nothing to draw: no face that can be built"), 1u);
 
-  Warnings strict(true);
   const std::string file = save("m.obj", "v 0 0 0\n");
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+  EXPECT_EQ(errorIfStrict(file),
             "3 m.obj: model with nothing to draw: no faces (refused by --strict)");
 }
 

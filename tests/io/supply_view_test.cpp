@@ -89,10 +89,10 @@ TEST_F(SuppliedView, AzimuthAndZoomReplaceTheCameraOfTheFile) {
 
   const SceneDescription file = loadMembers(R"("view": "model", "scene": [{"shape": "quad"}])");
   EXPECT_NEAR(file.cameras.at(0).eye.z, file.cameras[0].at.z, 1e-5);
-  EXPECT_TRUE(hasText(errorOf([&] { loadMembers(R"("scene": [{"shape": "quad"}])"); }),
+  EXPECT_TRUE(hasText(errorOfMembers(R"("scene": [{"shape": "quad"}])"),
                       "azimuth: s is neither a model nor a scene file with \"view\": \"model\""));
   options_.settings = {"/zoom=0"};
-  EXPECT_TRUE(hasText(errorOf([&] { loadObj(kTriangleObj); }), "m.obj#/zoom: expected"));
+  EXPECT_TRUE(hasText(errorOfObj(kTriangleObj), "m.obj#/zoom: expected"));
 }
 
 TEST_F(SuppliedView, AShadowLiesBelowAModel) {
@@ -177,9 +177,9 @@ TEST_F(SuppliedView, ASceneFileKeepsItsSkyUnlessAnotherIsAskedFor) {
 
 TEST_F(SuppliedView, ASkyThatIsNotThere) {
   options_.sky = root_ + "no.hdr";
-  EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "4 ");
+  EXPECT_EQ(errorOfObj(kTriangleObj).substr(0, 2), "4 ");
   options_.sky = save("text.hdr", "not an image");
-  EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "3 ");
+  EXPECT_EQ(errorOfObj(kTriangleObj).substr(0, 2), "3 ");
 }
 
 // A bar that stands on the plane z = 0, centered on the z axis.
@@ -219,7 +219,7 @@ TEST_F(SuppliedView, TheViewpointIsChosen) {
   EXPECT_LT(maxComponent(abs(eye - Vec3f{0, 2, 0})), 2) << "in the bar";
 
   options_.settings = {"/viewpoint=\"above\""};
-  EXPECT_TRUE(hasText(errorOf([&] { loadObj(kZUpObj); }), "m.obj#/viewpoint: expected"));
+  EXPECT_TRUE(hasText(errorOfObj(kZUpObj), "m.obj#/viewpoint: expected"));
 }
 
 // A box with two materials, whose fronts look inside.
@@ -249,7 +249,7 @@ TEST_F(SuppliedView, AnAxisIsTurnedUp) {
   options_.settings = {"/up=\"x\""};
   EXPECT_EQ(boundsOf(loadObj("v 0 0 0\nv 5 1 0\nv 0 1 2\nf 1 2 3\n")).upper, (Vec3f{0, 5, 2}));
   options_.settings = {"/up=\"w\""};
-  EXPECT_TRUE(hasText(errorOf([&] { loadObj(kZUpObj); }), "\"x\", \"y\" or \"z\""));
+  EXPECT_TRUE(hasText(errorOfObj(kZUpObj), "\"x\", \"y\" or \"z\""));
 
   options_.settings = {"/up=\"z\""};
   EXPECT_TRUE(hasText(errorOf([&] { loadLit(1); }), "files of this format say"));
