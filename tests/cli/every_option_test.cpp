@@ -312,7 +312,7 @@ constexpr OwnOption kOwnOptions[] = {
     {"compare", "@tiny.json --size 8x8", "--heatmap @h.png", "h.png"},
     {"compare", "@tiny.json --size 8x8", "--json -", "\"rmse\""},
     {"info", "@tiny.json", "--json -", "\"memory_mb\""},
-    {"explain", "@tiny.json", "--pixel 7,9", "7,9"},
+    {"explain", "@tiny.json", "--pixel 7,9", "pixel 7,9: "},
     {"explain", "@tiny.json --pixel 24,16 --least 1", "--least 0", "leaves the scene"},
     {"explain", "@tiny.json --pixel 24,16", "--svg @r.svg", "<svg"},
     {"explain", "@tiny.json --pixel 24,16", "--html @l.html", "<html"},
