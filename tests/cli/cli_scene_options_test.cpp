@@ -7,6 +7,7 @@
 #include "command_json.h"
 #include "core/option_table.h"
 #include "has_text.h"
+#include "io/image/image_layers.h"
 #include "picture_file.h"
 #include "run_command.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/run_program.h"
 #include "embedded_data.h"
 #include "has_text.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
