@@ -1,64 +1,52 @@
 // --channels as users run it.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "command_json.h"
+#include "has_text.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
-#include "run_program.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 const std::string kAll = "depth,position,normal,albedo,uv,object,material,triangle,rays";
 
-void expectDone(const std::vector<std::string>& words) {
-  const Outcome outcome = runWhit(words);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-}
-
-// A refused command writes nothing.
-void expectRefused(int status, const std::string& why, const std::vector<std::string>& words,
-                   const TemporaryFolder& folder) {
-  const auto count = [&] {
-    return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
-  };
-  const auto before = count();
-  const Outcome outcome = runWhit(words);
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
-  EXPECT_EQ(count(), before);
-}
-
-std::string textOf(const std::string& path, const std::string& name) {
-  for (const auto& [key, text] : readExrMetadata(path)) {
-    if (key == name) return text;
+class Channels : public TinySceneTest {
+ protected:
+  // A refused command writes nothing.
+  void expectRefused(int status, const std::string& why, const Words& words) const {
+    const auto count = [&] {
+      return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+    };
+    const auto before = count();
+    expectFailure(words, status, why);
+    EXPECT_EQ(count(), before);
   }
-  return "";
-}
+};
 
-TEST(Channels, AreBesideThePicture) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder), exr = folder / "a.exr";
-  expectDone({"render", scene, "-o", exr, "-o", folder / "a.png", "-o", folder / "a.depth.png",
-              "-o", folder / "normal.png", "--channels", kAll, "--quiet"});
-  expectDone({"render", scene, "-o", folder / "plain.exr", "-o", folder / "plain.png", "--quiet"});
+TEST_F(Channels, AreBesideThePicture) {
+  const std::string exr = folder_ / "a.exr";
+  succeed({"render", tiny_, "-o", exr, "-o", folder_ / "a.png", "-o", folder_ / "a.depth.png", "-o",
+           folder_ / "normal.png", "--channels", kAll, "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "plain.exr", "-o", folder_ / "plain.png", "--quiet"});
 
   EXPECT_EQ(readLayers(exr, ImageLimits()).size(), 17u);
-  EXPECT_TRUE(readLayers(folder / "plain.exr", ImageLimits()).empty());
+  EXPECT_TRUE(readLayers(folder_ / "plain.exr", ImageLimits()).empty());
   // Channels change nothing in the pictures.
-  EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "plain.png"));
-  EXPECT_NE(readFile(folder / "a.depth.png"), readFile(folder / "plain.png"));
+  EXPECT_EQ(readFile(folder_ / "a.png"), readFile(folder_ / "plain.png"));
+  EXPECT_NE(readFile(folder_ / "a.depth.png"), readFile(folder_ / "plain.png"));
 
-  EXPECT_EQ(textOf(exr, "channels"), kAll);
-  EXPECT_EQ(Json::parse(textOf(exr, "objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
-  const Json materials = Json::parse(textOf(exr, "materials"));
+  EXPECT_EQ(metadataOf(exr).at("channels"), kAll);
+  EXPECT_EQ(Json::parse(metadataOf(exr).at("objects")),
+            (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
+  const Json materials = Json::parse(metadataOf(exr).at("materials"));
 
   // The numbers in the channels are those that whit info lists.
-  const Outcome info = runWhit({"info", scene, "--json", "-"});
+  const Outcome info = runWhit({"info", tiny_, "--json", "-"});
   const Json said = Json::parse(info.out);
   EXPECT_EQ(said["objects"], 2);
   EXPECT_EQ(said["object_names"], (Json{"/scene/0", "/scene/1"}));
@@ -70,26 +58,24 @@ TEST(Channels, AreBesideThePicture) {
 
 // The name of an image asks for its channel. The gray EXR is what programs without knowledge of
 // channels read; its values are those of the layers beside a picture.
-TEST(Channels, AnImageNamedByOneHoldsItAlone) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
-  expectDone({"render", scene, "-o", folder / "a.png", "-o", folder / "a.depth.png", "-o",
-              folder / "a.depth.exr", "-o", folder / "a.normal.exr", "-o", folder / "a.uv.exr",
-              "-o", folder / "a.object.exr", "--quiet"});
-  expectDone({"render", scene, "-o", folder / "b.exr", "-o", folder / "b.depth.png", "--channels",
-              "depth,normal,uv,object", "--quiet"});
-  expectDone({"render", scene, "-o", folder / "depth.png", "--quiet"});
-  EXPECT_EQ(readFile(folder / "a.depth.png").size(), readFile(folder / "b.depth.png").size());
-  EXPECT_EQ(readFile(folder / "depth.png").size(), readFile(folder / "a.png").size());
+TEST_F(Channels, AnImageNamedByOneHoldsItAlone) {
+  succeed({"render", tiny_, "-o", folder_ / "a.png", "-o", folder_ / "a.depth.png", "-o",
+           folder_ / "a.depth.exr", "-o", folder_ / "a.normal.exr", "-o", folder_ / "a.uv.exr",
+           "-o", folder_ / "a.object.exr", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "b.exr", "-o", folder_ / "b.depth.png", "--channels",
+           "depth,normal,uv,object", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "depth.png", "--quiet"});
+  EXPECT_EQ(readFile(folder_ / "a.depth.png").size(), readFile(folder_ / "b.depth.png").size());
+  EXPECT_EQ(readFile(folder_ / "depth.png").size(), readFile(folder_ / "a.png").size());
 
-  const std::vector<ImageLayer> all = readLayers(folder / "b.exr", ImageLimits());
+  const std::vector<ImageLayer> all = readLayers(folder_ / "b.exr", ImageLimits());
   const auto layer = [&](const std::string& name) {
     const auto found = std::ranges::find(all, name, &ImageLayer::name);
     return found->countsThings ? std::vector<float>(found->words.begin(), found->words.end())
                                : found->floats();
   };
   const auto expectColors = [&](const std::string& file, std::array<std::string, 3> names) {
-    const Image image = readImage(folder / file, ImageLimits());
+    const Image image = readImage(folder_ / file, ImageLimits());
     for (std::size_t c = 0; c < 3; ++c) {
       if (names[c].empty()) continue;
       const std::vector<float> expected = layer(names[c]);
@@ -106,15 +92,12 @@ TEST(Channels, AnImageNamedByOneHoldsItAlone) {
   expectColors("a.uv.exr", {"uv.U", "uv.V", ""});
 }
 
-TEST(Channels, WhatCannotBeIsSaid) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
+TEST_F(Channels, WhatCannotBeIsSaid) {
   const auto refuse = [&](int status, const std::string& why, const std::string& output,
                           const std::string& channels, const std::string& exr = "zip") {
     expectRefused(
         status, why,
-        {"render", scene, "-o", folder / output, "--channels", channels, "--exr", exr, "--quiet"},
-        folder);
+        {"render", tiny_, "-o", folder_ / output, "--channels", channels, "--exr", exr, "--quiet"});
   };
   refuse(2, "did you mean 'depth'?", "a.exr", "deth");
   refuse(2, "expected an EXR to keep depth in", "a.png", "depth");
@@ -126,57 +109,50 @@ TEST(Channels, WhatCannotBeIsSaid) {
 
   // This depth is beyond what 16 bits hold.
   expectRefused(5, "does not fit into 16 bits",
-                {"render", scene, "-o", folder / "a.depth.png", "--channels", "depth", "--eye",
-                 "0,100,0", "--at", "0,0,0.1", "--quiet"},
-                folder);
+                {"render", tiny_, "-o", folder_ / "a.depth.png", "--channels", "depth", "--eye",
+                 "0,100,0", "--at", "0,0,0.1", "--quiet"});
 }
 
-TEST(Channels, OfCropsAreMerged) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
-  const auto part = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", scene,   "-o", folder / name, "--channels",
-                                   kAll,     "--spp", "2",  "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    expectDone(words);
+TEST_F(Channels, OfCropsAreMerged) {
+  const auto part = [&](const std::string& name, const Words& more) {
+    succeed(
+        joined({"render", tiny_, "-o", folder_ / name, "--channels", kAll, "--spp", "2", "--quiet"},
+               more));
   };
 
   part("whole.exr", {});
   part("left.exr", {"--crop", "0,0,20,32"});
   part("right.exr", {"--crop", "20,0,48,32"});
-  expectDone({"merge", folder / "merged.exr", folder / "left.exr", folder / "right.exr"});
-  EXPECT_EQ(textOf(folder / "merged.exr", "objects"), textOf(folder / "whole.exr", "objects"));
+  succeed({"merge", folder_ / "merged.exr", folder_ / "left.exr", folder_ / "right.exr"});
+  EXPECT_EQ(metadataOf(folder_ / "merged.exr").at("objects"),
+            metadataOf(folder_ / "whole.exr").at("objects"));
 
-  const Outcome compared = runWhit(
-      {"compare", folder / "merged.exr", folder / "whole.exr", "--tolerance", "0", "--json", "-"});
-  EXPECT_EQ(compared.status, 0) << compared.err;
+  const Outcome compared = succeed({"compare", folder_ / "merged.exr", folder_ / "whole.exr",
+                                    "--tolerance", "0", "--json", "-"});
   const Json channels = Json::parse(compared.out)["channels"];
   ASSERT_EQ(channels.size(), 17u);
   for (const Json& c : channels) EXPECT_EQ(c["pixels_differing"], 0) << c;
 
   // Parts must have the same channels.
-  expectDone({"render", scene, "-o", folder / "bare.exr", "--crop", "0,0,20,32", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "bare.exr", "--crop", "0,0,20,32", "--quiet"});
   expectRefused(2, "bare.exr: lacks the channel",
-                {"merge", folder / "m.exr", folder / "bare.exr", folder / "right.exr"}, folder);
+                {"merge", folder_ / "m.exr", folder_ / "bare.exr", folder_ / "right.exr"});
 }
 
-TEST(Channels, AreComparedExactly) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
-  expectDone({"render", scene, "-o", folder / "a.exr", "--channels", "depth,object", "--quiet"});
-  expectDone({"render", scene, "-o", folder / "b.exr", "--channels", "depth,object,normal", "--set",
-              "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
+TEST_F(Channels, AreComparedExactly) {
+  succeed({"render", tiny_, "-o", folder_ / "a.exr", "--channels", "depth,object", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "b.exr", "--channels", "depth,object,normal", "--set",
+           "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
   const Outcome outcome =
-      runWhit({"compare", folder / "a.exr", folder / "b.exr", "--json", folder / "c.json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("object.id"), std::string::npos);
-  const Json channels = Json::parse(readFile(folder / "c.json"))["channels"];
+      succeed({"compare", folder_ / "a.exr", folder_ / "b.exr", "--json", folder_ / "c.json"});
+  EXPECT_TRUE(hasText(outcome.out, "object.id"));
+  const Json channels = Json::parse(readFile(folder_ / "c.json"))["channels"];
   ASSERT_EQ(channels.size(), 3u);  // the channels that both files have
 
   Warnings warnings;
   // The number of pixels that differ is counted once more by hand.
-  const auto a = readLayers(folder / "a.exr", ImageLimits());
-  const auto b = readLayers(folder / "b.exr", ImageLimits());
+  const auto a = readLayers(folder_ / "a.exr", ImageLimits());
+  const auto b = readLayers(folder_ / "b.exr", ImageLimits());
   std::size_t differing = 0;
   for (std::size_t i = 0; i < a[2].words.size(); ++i) {
     differing += a[2].words[i] != b[5].words[i];
@@ -191,43 +167,37 @@ TEST(Channels, AreComparedExactly) {
   EXPECT_GT(channels[0]["max"], 0.3);
   EXPECT_GT(channels[0]["rms"], 0.0);
   expectRefused(2, "--channels needs a scene",
-                {"compare", folder / "a.exr", folder / "b.exr", "--channels", "depth"}, folder);
+                {"compare", folder_ / "a.exr", folder_ / "b.exr", "--channels", "depth"});
 }
 
-TEST(Channels, OfBothModesAreCompared) {
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      runWhit({"compare", writeTinyScene(folder), "--channels", "depth,object", "--json", "-"});
-
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+TEST_F(Channels, OfBothModesAreCompared) {
+  const Outcome outcome = succeed({"compare", tiny_, "--channels", "depth,object", "--json", "-"});
   const Json channels = Json::parse(outcome.out)["channels"];
   ASSERT_EQ(channels.size(), 3u);
   EXPECT_LT(channels[0]["max"], 1e-4);
   EXPECT_EQ(channels[2]["pixels_differing"], 0);
 }
 
-TEST(Channels, OfFramesAreThoseOfEachAlone) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
+TEST_F(Channels, OfFramesAreThoseOfEachAlone) {
   const auto film = [&](const std::string& name, const std::string& frames) {
-    expectDone({"render", scene, "-o", folder / (name + "#.exr"), "-o",
-                folder / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
-                kAll + ",roughness,metallic,motion", "--quiet"});
+    succeed({"render", tiny_, "-o", folder_ / (name + "#.exr"), "-o",
+             folder_ / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
+             kAll + ",roughness,metallic,motion", "--quiet"});
   };
 
   film("film", "0..3");
   film("alone", "2");
-  EXPECT_EQ(readFile(folder / "film2.exr"), readFile(folder / "alone2.exr"));
-  EXPECT_EQ(readFile(folder / "film.depth-2.png"), readFile(folder / "alone.depth-2.png"));
-  EXPECT_NE(readFile(folder / "film.depth-2.png"), readFile(folder / "film.depth-1.png"));
+  EXPECT_EQ(readFile(folder_ / "film2.exr"), readFile(folder_ / "alone2.exr"));
+  EXPECT_EQ(readFile(folder_ / "film.depth-2.png"), readFile(folder_ / "alone.depth-2.png"));
+  EXPECT_NE(readFile(folder_ / "film.depth-2.png"), readFile(folder_ / "film.depth-1.png"));
 
   // An instant has the motion since the frame before it.
-  expectDone({"render", scene, "-o", folder / "instant.motion.exr", "--time", "0.5", "--fps", "4",
-              "--quiet"});
-  expectDone({"render", scene, "-o", folder / "frame.motion-#.exr", "--frames", "2..2", "--fps",
-              "4", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "instant.motion.exr", "--time", "0.5", "--fps", "4",
+           "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "frame.motion-#.exr", "--frames", "2..2", "--fps", "4",
+           "--quiet"});
   const auto motionsIn = [&](const std::string& file) {
-    return readImage(folder / file, ImageLimits()).pixels;
+    return readImage(folder_ / file, ImageLimits()).pixels;
   };
   EXPECT_EQ(motionsIn("instant.motion.exr"), motionsIn("frame.motion-2.exr"));
   const auto moves = [](const Rgb& motion) { return motion != Rgb(0.0f); };
@@ -235,15 +205,14 @@ TEST(Channels, OfFramesAreThoseOfEachAlone) {
 }
 
 // Eight pixels are a unit, and the ball moves by (0.5, -0.25) units a second.
-TEST(Channels, MotionIsThatOfOneFrame) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "ball.json") << R"({"whit": 1, "size": [64, 64], "cameras": {"c":
+TEST_F(Channels, MotionIsThatOfOneFrame) {
+  std::ofstream(folder_ / "ball.json") << R"({"whit": 1, "size": [64, 64], "cameras": {"c":
     {"eye": [0, 0, 9], "at": [0, 0, 0], "orthographicHeight": 8}}, "ambient": {"color": 1}, "scene":
     [{"shape": "sphere", "motion": {"keys": [{"time": 0}, {"time": 4, "translate": [2, -1, 0]}]}}]})";
-  expectDone({"render", folder / "ball.json", "-o", folder / "a.motion.exr", "--time", "2", "--fps",
-              "4", "--quiet"});
+  succeed({"render", folder_ / "ball.json", "-o", folder_ / "a.motion.exr", "--time", "2", "--fps",
+           "4", "--quiet"});
 
-  const Image image = readImage(folder / "a.motion.exr", ImageLimits());
+  const Image image = readImage(folder_ / "a.motion.exr", ImageLimits());
   const Rgb seen = image.at(32 + 8, 32 + 4), nothing = image.at(0, 0);
   constexpr double kRounding = 1e-5;  // of positions in float, in pixels
   EXPECT_NEAR(seen.x, 8 * 0.5 / 4, kRounding);
@@ -251,14 +220,11 @@ TEST(Channels, MotionIsThatOfOneFrame) {
   EXPECT_EQ(nothing, Rgb(0.0f));
 }
 
-TEST(Channels, ResumingAsksForTheSameOnes) {
-  const TemporaryFolder folder;
-  const std::string scene = writeTinyScene(folder);
+TEST_F(Channels, ResumingAsksForTheSameOnes) {
   const auto kept = [&](const std::string& channels) {
     const Outcome outcome =
-        runWhit({"render", scene, "-o", folder / "a.exr", "-o", folder / "a.depth.png", "--resume",
-                 "--channels", channels, "--json", "-"});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+        succeed({"render", tiny_, "-o", folder_ / "a.exr", "-o", folder_ / "a.depth.png",
+                 "--resume", "--channels", channels, "--json", "-"});
     return Json::parse(outcome.out)["kept"].get<int>();
   };
 

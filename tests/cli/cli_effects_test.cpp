@@ -3,52 +3,44 @@
 
 #include <algorithm>
 #include <bit>
-#include <nlohmann/json.hpp>
 
-#include "cli/run_program.h"
+#include "command_json.h"
 #include "core/options.h"
 #include "embedded_data.h"
-#include "io/image/image_file.h"
+#include "has_text.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-using Json = nlohmann::json;
+class AbEffects : public TinySceneTest {};
+class EffectsCommand : public TinySceneTest {};
 
 TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
-  const auto line = [](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"info", "effects"};
-    words.insert(words.end(), more.begin(), more.end());
-    const std::string out = runWhit(words).out;
+  const auto line = [](const Words& more) {
+    const std::string out = runWhit(joined({"info", "effects"}, more)).out;
     const std::size_t begin = out.find("\n  depthOfField");
     return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin + 1) - begin);
   };
 
-  EXPECT_NE(line({}).find("1 camera with an aperture, but --spp is 1"), std::string::npos);
+  EXPECT_TRUE(hasText(line({}), "1 camera with an aperture, but --spp is 1"));
   const std::string two = line({"--spp", "2"});
-  EXPECT_NE(two.find("1 camera with an aperture"), std::string::npos) << two;
-  EXPECT_EQ(two.find("but"), std::string::npos) << two;
-  EXPECT_NE(line({"--spp", "2", "--disable", "depthOfField"}).find("disabled by --disable"),
-            std::string::npos);
-  EXPECT_NE(line({"--set", "/cameras/lens/aperture=0"}).find("no camera has an aperture"),
-            std::string::npos);
+  EXPECT_TRUE(hasText(two, "1 camera with an aperture"));
+  EXPECT_FALSE(hasText(two, "but"));
+  EXPECT_TRUE(hasText(line({"--spp", "2", "--disable", "depthOfField"}), "disabled by --disable"));
+  EXPECT_TRUE(hasText(line({"--set", "/cameras/lens/aperture=0"}), "no camera has an aperture"));
 }
 
-TEST(AbEffects, MeasuresTheSceneTwice) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const Outcome table = runWhit({"bench", tiny, "--ab-effects", "--frames", "3"});
-  ASSERT_EQ(table.status, 0) << table.err;
-  EXPECT_NE(table.out.find("tiny, effects all over effects auto, medians of 3 turns"),
-            std::string::npos)
-      << table.out;
+TEST_F(AbEffects, MeasuresTheSceneTwice) {
+  const Outcome table = succeed({"bench", tiny_, "--ab-effects", "--frames", "3"});
+  EXPECT_TRUE(hasText(table.out, "tiny, effects all over effects auto, medians of 3 turns"));
   for (const char* head : {"tiny, effects auto  48x32", "tiny, effects all  48x32"}) {
-    EXPECT_NE(table.out.find(head), std::string::npos) << table.out;
+    EXPECT_TRUE(hasText(table.out, head));
   }
-  EXPECT_NE(table.out.find("outside Embree"), std::string::npos) << table.out;
+  EXPECT_TRUE(hasText(table.out, "outside Embree"));
 
-  const Json json = Json::parse(
-      runWhit({"bench", tiny, tiny, "--ab-effects", "--frames", "2", "--json", "-"}).out);
+  const Json json = jsonOf({"bench", tiny_, tiny_, "--ab-effects", "--frames", "2"});
   ASSERT_EQ(json["runs"].size(), 4u);
   ASSERT_EQ(json["all_over_auto"].size(), 2u);
   for (std::size_t i = 0; i < 4; i += 2) {
@@ -65,22 +57,17 @@ TEST(AbEffects, MeasuresTheSceneTwice) {
   EXPECT_GT(json["all_over_auto"][0]["outside_embree"].get<double>(), 0);
 }
 
-TEST(AbEffects, RefusesWhatDoesNotGoWithIt) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"--widths"}, {"--mode", "reference"}, {"--effects", "all"}}) {
-    std::vector<std::string> all{"bench", "matte", "--ab-effects"};
-    all.insert(all.end(), words.begin(), words.end());
-    EXPECT_EQ(runWhit(all).status, 2) << words[0];
+TEST_F(AbEffects, RefusesWhatDoesNotGoWithIt) {
+  for (const Words& more : {Words{"--widths"}, {"--mode", "reference"}, {"--effects", "all"}}) {
+    EXPECT_EQ(runWhit(joined({"bench", "matte", "--ab-effects"}, more)).status, 2) << more[0];
   }
 }
 
-TEST(EffectsCommand, WritesATableAndAPicture) {
-  const TemporaryFolder folder;
+TEST_F(EffectsCommand, WritesATableAndAPicture) {
   const Outcome outcome =
-      runWhit({"effects", "--out", folder / "made", "--frames", "1", "--size", "48x30"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+      succeed({"effects", "--out", folder_ / "made", "--frames", "1", "--size", "48x30"});
 
-  const std::string csv = readFile(folder / "made/effects.csv");
+  const std::string csv = readFile(folder_ / "made/effects.csv");
   // The table has a head, a line for the matte scene and one for each effect, except for its lights
   // and their shadows, for fog, which the scene has not, and for the effects that are off unless an
   // option turns them on.
@@ -89,44 +76,36 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 5) << outcome.out;
 
-  const auto codes = [&](const char* name) {
-    Warnings warnings;
-    return readRawImage(folder / name, ImageLimits(), warnings).codes;
-  };
+  const auto codes = [&](const char* name) { return storedIn(folder_ / name).codes; };
   EXPECT_EQ(codes("made/00-matte.png").size(), 48u * 30 * 3);
   EXPECT_NE(codes("made/00-matte.png"), codes("made/01-spotLights.png"));
 
   // There is a picture for each line but the head.
   const std::ptrdiff_t pictures = std::count_if(
-      std::filesystem::directory_iterator(folder / "made"), std::filesystem::directory_iterator(),
+      std::filesystem::directory_iterator(folder_ / "made"), std::filesystem::directory_iterator(),
       [](const auto& entry) { return entry.path().extension() == ".png"; });
   EXPECT_EQ(pictures, kLines - 1);
-  EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;
+  EXPECT_TRUE(hasText(csv, "\nabsorption,"));
 
-  const auto report = embeddedData(readFile(folder / "made/report.html"));
+  const auto report = embeddedData(readFile(folder_ / "made/report.html"));
   EXPECT_EQ(report["effects"].size(), static_cast<std::size_t>(kLines - 1));
   EXPECT_EQ(report["pictures"][0], "00-matte.png");
 }
 
-TEST(EffectsCommand, AddsOnlyWhatTheSceneHas) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const Outcome outcome =
-      runWhit({"effects", tiny, "--out", folder.path().string(), "--frames", "1"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+TEST_F(EffectsCommand, AddsOnlyWhatTheSceneHas) {
+  succeed({"effects", tiny_, "--out", folder_.path().string(), "--frames", "1"});
 
-  const std::string csv = readFile(folder / "effects.csv");
+  const std::string csv = readFile(folder_ / "effects.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2) << csv;  // smooth normals, a mirror
 }
 
-TEST(EffectsCommand, RefusesWrongUsage) {
+TEST_F(EffectsCommand, RefusesWrongUsage) {
   EXPECT_EQ(runWhit({"effects"}).status, 2);
   EXPECT_EQ(runWhit({"effects", "--out", "x", "--disable", "sky"}).status, 2);
   EXPECT_EQ(runWhit({"effects", "--out", "x", "--mode", "reference"}).status, 2);
   EXPECT_EQ(runWhit({"effects", "--out", "/proc/no/such"}).status, 4);
-  const Outcome help = runWhit({"effects", "--help"});
-  EXPECT_EQ(help.status, 0);
-  EXPECT_NE(help.out.find("--out DIR"), std::string::npos) << help.out;
+  const Outcome help = succeed({"effects", "--help"});
+  EXPECT_TRUE(hasText(help.out, "--out DIR"));
 }
 
 }  // namespace

@@ -4,11 +4,12 @@
 
 #include <array>
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "command_json.h"
+#include "has_text.h"
 #include "io/image/image_layers.h"
-#include "run_program.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -73,20 +74,18 @@ class FarModels : public testing::Test {
     return folder_ / name;
   }
   // The hash of the picture, and what was said.
-  std::string hashOf(std::vector<std::string> words, std::string* said = nullptr) const {
+  std::string hashOf(const Words& words, std::string* said = nullptr) const {
     const std::string json = folder_ / "report.json";
-    words.insert(words.begin(), "render");
-    words.insert(words.end(), {"--size", "96x64", "-o", folder_ / "p.exr", "--json", json});
-    const Outcome outcome = runWhit(words);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const Outcome outcome = succeed(
+        joined({"render", "--size", "96x64", "-o", folder_ / "p.exr", "--json", json}, words));
     if (said) *said = outcome.err;
-    return nlohmann::json::parse(readFile(json))["image_hash"];
+    return Json::parse(readFile(json))["image_hash"];
   }
   // The rays of the pixel in the middle.
-  nlohmann::json explained(std::vector<std::string> words) const {
-    words.insert(words.begin(), "explain");
-    words.insert(words.end(), {"--size", "96x64", "--pixel", "48,32", "--json", "-"});
-    return nlohmann::json::parse(runWhit(words).out);
+  Json explained(const Words& words) const {
+    const Words all =
+        joined({"explain", "--size", "96x64", "--pixel", "48,32", "--json", "-"}, words);
+    return Json::parse(runWhit(all).out);
   }
 
   TemporaryFolder folder_;
@@ -102,8 +101,8 @@ TEST_F(FarModels, LookAsAtTheOrigin) {
       std::string said, nothing;
       EXPECT_EQ(hashOf({there, "--mode", mode}, &said), hashOf({here, "--mode", mode}, &nothing))
           << extension << " " << mode;
-      EXPECT_NE(said.find(kNote), std::string::npos) << said;
-      EXPECT_EQ(nothing.find("far from the origin"), std::string::npos) << nothing;
+      EXPECT_TRUE(hasText(said, kNote));
+      EXPECT_FALSE(hasText(nothing, "far from the origin"));
     }
   }
 }
@@ -130,7 +129,7 @@ TEST_F(FarModels, LookAsAtTheOriginInScenesThatBringThemBack) {
         save("far.json",
              scene("\"far" + ending + R"(", "transform": {"translate": [-4000000, 0, -500000]})"));
     EXPECT_EQ(hashOf({there}, &said), hashOf({save("near.json", scene("\"near" + ending + "\""))}));
-    EXPECT_EQ(said.find("far from the origin"), std::string::npos) << said;
+    EXPECT_FALSE(hasText(said, "far from the origin"));
   }
 }
 
@@ -151,25 +150,23 @@ TEST_F(FarModels, TakeCamerasInTheirFile) {
 
 TEST_F(FarModels, AreMeasuredInTheirFile) {
   const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
-  const auto info = [](const std::string& model) {
-    return nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out);
-  };
-  EXPECT_EQ(info(there)["origin"], nlohmann::json::parse("[4000000, 0, 500000]"));
-  EXPECT_EQ(info(there)["bounds"]["lower"], nlohmann::json::parse("[3999999, 0, 499999]"));
-  EXPECT_EQ(info(here)["origin"], nlohmann::json::parse("[0, 0, 0]"));
-  EXPECT_NE(runWhit({"info", there}).out.find("  origin      moved by [4000000.0,0.0,500000.0]\n"),
-            std::string::npos);
-  EXPECT_EQ(runWhit({"info", here}).out.find("origin"), std::string::npos);
+  const auto info = [](const std::string& model) { return jsonOf({"info", model}); };
+  EXPECT_EQ(info(there)["origin"], Json::parse("[4000000, 0, 500000]"));
+  EXPECT_EQ(info(there)["bounds"]["lower"], Json::parse("[3999999, 0, 499999]"));
+  EXPECT_EQ(info(here)["origin"], Json::parse("[0, 0, 0]"));
+  EXPECT_TRUE(
+      hasText(runWhit({"info", there}).out, "  origin      moved by [4000000.0,0.0,500000.0]\n"));
+  EXPECT_FALSE(hasText(runWhit({"info", here}).out, "origin"));
 
-  const auto numbers = [](const nlohmann::json& json, double share) {
+  const auto numbers = [](const Json& json, double share) {
     auto three = json.get<std::array<double, 3>>();
     for (std::size_t i = 0; i < 3; ++i) three[i] -= share * kAway[i];
     return three;
   };
-  const nlohmann::json far = explained({there}), near = explained({here});
+  const Json far = explained({there}), near = explained({here});
   for (const char* mode : {"packets", "reference"}) {
-    const nlohmann::json& a = far[mode]["samples"][0];
-    const nlohmann::json& b = near[mode]["samples"][0];
+    const Json& a = far[mode]["samples"][0];
+    const Json& b = near[mode]["samples"][0];
     // Numbers of millions have steps of 2^-31.
     constexpr double kStep = 0x1p-31;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -7,8 +7,9 @@
 #include <map>
 #include <set>
 
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "has_text.h"
+#include "picture_file.h"
+#include "run_command.h"
 #include "simd/kernels.h"
 
 namespace whit::cli {
@@ -16,17 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void render(std::vector<std::string> words) {
-  words.insert(words.begin(), "render");
-  const Outcome outcome = runWhit(words);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-}
-
-std::map<std::string, std::string> metadataOf(const std::string& path) {
-  std::map<std::string, std::string> all;
-  for (const auto& [name, text] : readExrMetadata(path)) all[name] = text;
-  return all;
-}
+void render(const Words& words) { succeed(joined({"render"}, words)); }
 
 Image read(const std::string& path) { return readImage(path, ImageLimits()); }
 
@@ -61,31 +52,30 @@ TEST(Render, WithoutOutputWritesTheScenesName) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("'other.png' is there"), std::string::npos) << refused.err;
+  EXPECT_TRUE(hasText(refused.err, "'other.png' is there"));
   EXPECT_EQ(readFile(folder / "other.png"), "a texture");
   EXPECT_EQ(outcome.out, "");  // standard output is no terminal
-  EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "wrote tiny.png"));
   EXPECT_EQ(readFile(folder / "tiny.png").substr(1, 3), "PNG");
   EXPECT_EQ(runWhit({"render", folder / "tiny.json", "--frames", "0..1"}).status, 2);
 }
 
-TEST(Images, TheSameRenderGivesTheSameBytes) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--threads", "1"});
-  render({tiny, "-o", folder / "b.exr", "-o", folder / "b.png", "--threads", "3", "--tile", "16"});
+class Images : public TinySceneTest {};
 
-  EXPECT_EQ(readFile(folder / "a.exr"), readFile(folder / "b.exr"));
-  EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
+TEST_F(Images, TheSameRenderGivesTheSameBytes) {
+  render({tiny_, "-o", folder_ / "a.exr", "-o", folder_ / "a.png", "--threads", "1"});
+  render(
+      {tiny_, "-o", folder_ / "b.exr", "-o", folder_ / "b.png", "--threads", "3", "--tile", "16"});
+
+  EXPECT_EQ(readFile(folder_ / "a.exr"), readFile(folder_ / "b.exr"));
+  EXPECT_EQ(readFile(folder_ / "a.png"), readFile(folder_ / "b.png"));
 }
 
-TEST(Images, SayHowTheyWereMade) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--camera", "side", "--depth", "3",
-          "--crop", "8,4,40,20"});
+TEST_F(Images, SayHowTheyWereMade) {
+  render({tiny_, "-o", folder_ / "a.exr", "-o", folder_ / "a.png", "--camera", "side", "--depth",
+          "3", "--crop", "8,4,40,20"});
 
-  const auto said = metadataOf(folder / "a.exr");
+  const auto said = metadataOf(folder_ / "a.exr");
   const std::pair<const char*, const char*> expected[] = {
       {"scene", "tiny"}, {"size", "48x32"}, {"crop", "8,4,40,20"}, {"camera", "side"},
       {"eye", "6,2,0"},  {"at", "0,1,0"},   {"up", "0,1,0"},       {"fov", "40"},
@@ -96,67 +86,59 @@ TEST(Images, SayHowTheyWereMade) {
   }
 
   EXPECT_EQ(said.at("software").rfind("whit ", 0), 0u);
-  EXPECT_NE(said.at("effectsUsed").find("mirror"), std::string::npos);
+  EXPECT_TRUE(hasText(said.at("effectsUsed"), "mirror"));
   EXPECT_NE(said.at("packet"), "auto");
   // Metadata must not depend on the run, or pictures would differ from run to run.
   for (const char* secret : {"threads", "date", "host", "capDate", "owner"}) {
     EXPECT_FALSE(said.contains(secret)) << secret;
   }
 
-  const std::string png = readFile(folder / "a.png");
-  EXPECT_NE(png.find("tEXt"), std::string::npos);
-  EXPECT_NE(png.find("software"), std::string::npos);
+  const std::string png = readFile(folder_ / "a.png");
+  EXPECT_TRUE(hasText(png, "tEXt"));
+  EXPECT_TRUE(hasText(png, "software"));
 }
 
-TEST(Images, MetadataMakesTheImageAgain) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  render({tiny, "-o", folder / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff", "0.01",
-          "--spp", "2", "--disable", "shadows"});
+TEST_F(Images, MetadataMakesTheImageAgain) {
+  render({tiny_, "-o", folder_ / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff",
+          "0.01", "--spp", "2", "--disable", "shadows"});
 
-  std::vector<std::string> words{tiny, "-o", folder / "b.exr"};
+  Words words{tiny_, "-o", folder_ / "b.exr"};
   // These members describe the picture, but no option sets them.
   const std::set<std::string> noOptions{"software", "scene", "sceneDigest", "effectsUsed",
                                         "strict"};
-  for (const auto& [name, text] : metadataOf(folder / "a.exr")) {
+  for (const auto& [name, text] : metadataOf(folder_ / "a.exr")) {
     if (noOptions.contains(name)) continue;
     words.push_back("--" + name + "=" + text);
   }
 
   render(words);
-  EXPECT_TRUE(sameBits(read(folder / "a.exr"), read(folder / "b.exr")));
+  EXPECT_TRUE(sameBits(read(folder_ / "a.exr"), read(folder_ / "b.exr")));
 }
 
-TEST(Images, CropsMergeToTheWhole) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-
-  render({tiny, "-o", folder / "whole.exr"});
+TEST_F(Images, CropsMergeToTheWhole) {
+  render({tiny_, "-o", folder_ / "whole.exr"});
   const char* crops[] = {"0,0,20,32", "20,0,48,10", "20,10,48,32"};
-  std::vector<std::string> merge{"merge", folder / "merged.exr"};
+  Words merge{"merge", folder_ / "merged.exr"};
   for (const char* crop : crops) {
-    merge.push_back(folder / (std::string(crop) + ".exr"));
-    render({tiny, "-o", merge.back(), "--crop", crop});
+    merge.push_back(folder_ / (std::string(crop) + ".exr"));
+    render({tiny_, "-o", merge.back(), "--crop", crop});
   }
 
-  const Outcome outcome = runWhit(merge);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(sameBits(read(folder / "whole.exr"), read(folder / "merged.exr")));
+  succeed(merge);
+  EXPECT_TRUE(sameBits(read(folder_ / "whole.exr"), read(folder_ / "merged.exr")));
 
   // A merged picture must have no gap.
   merge.pop_back();
-  merge[1] = folder / "gap.exr";
+  merge[1] = folder_ / "gap.exr";
   EXPECT_EQ(runWhit(merge).status, 2);
-  EXPECT_FALSE(fs::exists(folder / "gap.exr"));
+  EXPECT_FALSE(fs::exists(folder_ / "gap.exr"));
 }
 
-TEST(Images, FramesFollowThePath) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  render({tiny, "-o", folder / "f-###.exr", "--frames", "0..2", "--fps", "2"});
-  EXPECT_EQ(metadataOf(folder / "f-000.exr").at("eye"), "0,2,6");
-  EXPECT_EQ(metadataOf(folder / "f-002.exr").at("eye"), "6,2,0");  // frame 2 of 2 a second: 1 s
-  EXPECT_EQ(metadataOf(folder / "f-001.exr").at("frame"), "1");
+TEST_F(Images, FramesFollowThePath) {
+  render({tiny_, "-o", folder_ / "f-###.exr", "--frames", "0..2", "--fps", "2"});
+  EXPECT_EQ(metadataOf(folder_ / "f-000.exr").at("eye"), "0,2,6");
+  EXPECT_EQ(metadataOf(folder_ / "f-002.exr").at("eye"), "6,2,0");  // frame 2 of 2 a second: 1 s
+  EXPECT_EQ(metadataOf(folder_ / "f-001.exr").at("frame"), "1");
 }
 
 // A file that is written anew is another file of that name.
@@ -166,12 +148,10 @@ ino_t fileNumber(const std::string& path) {
   return info.st_ino;
 }
 
-TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
+TEST_F(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
   for (const std::string type : {".exr", ".png"}) {
-    const auto frame = [&](int i) { return folder / ("f-" + std::to_string(i) + type); };
-    std::vector<std::string> words{tiny, "-o", folder / ("f-#" + type), "--frames", "0..5"};
+    const auto frame = [&](int i) { return folder_ / ("f-" + std::to_string(i) + type); };
+    Words words{tiny_, "-o", folder_ / ("f-#" + type), "--frames", "0..5"};
     render(words);
 
     std::vector<std::string> whole;
@@ -181,11 +161,11 @@ TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
     fs::remove(frame(1));
     std::ofstream(frame(2), std::ios::binary) << whole[2].substr(0, whole[2].size() - 9);
     std::ofstream(frame(3), std::ios::binary) << "no image at all";
-    render({tiny, "-o", words[2], "--frames", "4", "--depth", "1"});
+    render({tiny_, "-o", words[2], "--frames", "4", "--depth", "1"});
     // A frame that another machine made with other SIMD lanes is kept, because its pixels do not
     // depend on them.
     const std::string narrowest = simd::availableTargets().back();
-    render({tiny, "-o", words[2], "--frames", "5", "--simd", narrowest, "--packet", "4"});
+    render({tiny_, "-o", words[2], "--frames", "5", "--simd", narrowest, "--packet", "4"});
     const std::string others = readFile(frame(5));
     const ino_t kept[] = {fileNumber(frame(0)), fileNumber(frame(5))};
     words.insert(words.end(), {"--resume", "--threads", "1"});
@@ -201,7 +181,7 @@ TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
                                         {"--simd", simd::availableTargets().front()}}) {
       if (value == narrowest) continue;  // the machine has a single target
       std::ofstream(frame(5), std::ios::binary) << others;
-      std::vector<std::string> asked = words;
+      Words asked = words;
       asked.insert(asked.end(), {option, value});
       render(asked);
       EXPECT_FALSE(readFile(frame(5)) == others) << option;
@@ -209,36 +189,33 @@ TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
   }
 }
 
-TEST(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const std::vector<std::string> words{
-      tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--crop", "8,4,40,20", "--resume"};
+TEST_F(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
+  const Words words{tiny_,    "-o",        folder_ / "a.exr", "-o", folder_ / "a.png",
+                    "--crop", "8,4,40,20", "--resume"};
   render(words);
-  const ino_t first = fileNumber(folder / "a.exr");
+  const ino_t first = fileNumber(folder_ / "a.exr");
   render(words);
-  EXPECT_EQ(fileNumber(folder / "a.exr"), first);
+  EXPECT_EQ(fileNumber(folder_ / "a.exr"), first);
 
-  fs::remove(folder / "a.png");
+  fs::remove(folder_ / "a.png");
   render(words);
-  EXPECT_TRUE(fs::exists(folder / "a.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "a.png"));
 
-  render({tiny, "-o", folder / "a.exr", "--crop", "8,4,40,21", "--resume"});
-  EXPECT_EQ(read(folder / "a.exr").windowHeight(), 17);
+  render({tiny_, "-o", folder_ / "a.exr", "--crop", "8,4,40,21", "--resume"});
+  EXPECT_EQ(read(folder_ / "a.exr").windowHeight(), 17);
 }
 
 // Only those parts of the scene's file, and of the files that it names, count on which a picture
 // can depend.
-TEST(Images, ResumingTracesAnotherStateOfTheScene) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder), text = readFile(tiny);
+TEST_F(Images, ResumingTracesAnotherStateOfTheScene) {
+  const std::string text = readFile(tiny_);
   for (const std::string type : {".exr", ".png"}) {
-    const std::string image = folder / ("a" + type);
+    const std::string image = folder_ / ("a" + type);
     const auto numberAfter = [&](const std::string& scene) {
-      std::ofstream(tiny) << scene;
+      std::ofstream(tiny_) << scene;
       // The file is held open, so that the file that replaces it does not get the same number.
       const std::ifstream held(image);
-      render({tiny, "-o", image, "--resume"});
+      render({tiny_, "-o", image, "--resume"});
       return fileNumber(image);
     };
 
@@ -260,14 +237,12 @@ TEST(Images, ResumingTracesAnotherStateOfTheScene) {
 }
 
 // Each frame is written while the next one is traced.
-TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
-  const TemporaryFolder folder, results;
-  const std::string tiny = writeTinyScene(folder);
+TEST_F(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
+  const TemporaryFolder results;
   fs::create_directory(results / "f-2.exr");
-  const Outcome outcome = runWhit(
-      {"render", tiny, "-o", results / "f-#.exr", "-o", results / "f-#.png", "--frames", "0..9"});
-  EXPECT_EQ(outcome.status, 4) << outcome.err;
-  EXPECT_NE(outcome.err.find("f-2.exr"), std::string::npos) << outcome.err;
+  expectFailure(
+      {"render", tiny_, "-o", results / "f-#.exr", "-o", results / "f-#.png", "--frames", "0..9"},
+      4, "f-2.exr");
 
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(results.path())) {
@@ -279,84 +254,67 @@ TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
 
 // Frames alternate between two films. With memory for one film only, each frame is written before
 // the next one is traced.
-TEST(Images, FramesDoNotDependOnWhetherTheyAreWrittenBesideTheNext) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  std::vector<std::string> words{
-      tiny, "-o", folder / "two-#.exr", "--frames", "0..4", "--fps", "4", "--size", "480x320"};
+TEST_F(Images, FramesDoNotDependOnWhetherTheyAreWrittenBesideTheNext) {
+  Words words{tiny_,    "-o",     folder_ / "two-#.exr", "--frames", "0..4", "--fps", "4",
+              "--size", "480x320"};
   render(words);
   // The limit is enough for one film, but not for two.
-  words[2] = folder / "one-#.exr";
+  words[2] = folder_ / "one-#.exr";
   words.insert(words.end(), {"--max-memory", "0.006"});
   render(words);
 
   for (const std::string frame : {"0", "1", "2", "3", "4"}) {
-    words = {tiny,     "-o",     folder / "alone-#.exr", "--frames", frame, "--fps", "4",
+    words = {tiny_,    "-o",     folder_ / "alone-#.exr", "--frames", frame, "--fps", "4",
              "--size", "480x320"};
     render(words);
 
-    const std::string alone = readFile(folder / ("alone-" + frame + ".exr"));
-    EXPECT_TRUE(readFile(folder / ("two-" + frame + ".exr")) == alone) << frame;
-    EXPECT_TRUE(readFile(folder / ("one-" + frame + ".exr")) == alone) << frame;
+    const std::string alone = readFile(folder_ / ("alone-" + frame + ".exr"));
+    EXPECT_TRUE(readFile(folder_ / ("two-" + frame + ".exr")) == alone) << frame;
+    EXPECT_TRUE(readFile(folder_ / ("one-" + frame + ".exr")) == alone) << frame;
   }
 }
 
-TEST(Images, GoToStandardOutputAsPng) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  render({tiny, "-o", folder / "f#.png", "-o", folder / "f#.exr", "--frames", "0..1"});
+TEST_F(Images, GoToStandardOutputAsPng) {
+  render({tiny_, "-o", folder_ / "f#.png", "-o", folder_ / "f#.exr", "--frames", "0..1"});
 
-  const Outcome both = runWhit({"render", tiny, "-o", "-", "--frames", "0..1"});
-  EXPECT_EQ(both.status, 0) << both.err;
-  EXPECT_TRUE(both.out == readFile(folder / "f0.png") + readFile(folder / "f1.png"));
-  EXPECT_NE(both.err.find("wrote 2 images"), std::string::npos) << both.err;
+  const Outcome both = succeed({"render", tiny_, "-o", "-", "--frames", "0..1"});
+  EXPECT_TRUE(both.out == readFile(folder_ / "f0.png") + readFile(folder_ / "f1.png"));
+  EXPECT_TRUE(hasText(both.err, "wrote 2 images"));
 
-  const Outcome refused[] = {runWhit({"render", tiny, "-o", "-", "-o", "-"}),
-                             runWhit({"render", tiny, "-o", "-", "--json", "-"}),
-                             runWhit({"render", tiny, "-o", "-", "--resume"})};
-  for (const Outcome& outcome : refused) {
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_NE(outcome.err.find("-o -"), std::string::npos) << outcome.err;
+  for (const Words& more : {Words{"-o", "-"}, {"--json", "-"}, {"--resume"}}) {
+    expectFailure(joined({"render", tiny_, "-o", "-"}, more), 2, "-o -");
   }
 
   // A full device is an error of writing.
-  const Outcome full = runWhit({"render", tiny, "-o", "-"},
+  const Outcome full = runWhit({"render", tiny_, "-o", "-"},
                                [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   EXPECT_EQ(full.status, 4) << full.err;
 }
 
-TEST(Images, SayHowAnExrIsStoredAndResumeByIt) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder), image = folder / "a.exr";
-  render({tiny, "-o", image});
+TEST_F(Images, SayHowAnExrIsStoredAndResumeByIt) {
+  const std::string image = folder_ / "a.exr";
+  render({tiny_, "-o", image});
   EXPECT_FALSE(metadataOf(image).contains("exr"));
   const Image exact = read(image);
 
-  render({tiny, "-o", image, "--exr", "none"});
+  render({tiny_, "-o", image, "--exr", "none"});
   EXPECT_TRUE(sameBits(read(image), exact));
 
-  render({tiny, "-o", image, "--exr", "half", "--resume"});
+  render({tiny_, "-o", image, "--exr", "half", "--resume"});
   EXPECT_EQ(metadataOf(image).at("exr"), "half");
   EXPECT_FALSE(sameBits(read(image), exact));
 
   // Resuming keeps a file that is stored in the same way.
   const ino_t first = fileNumber(image);
-  render({tiny, "-o", image, "--exr", "half", "--resume"});
+  render({tiny_, "-o", image, "--exr", "half", "--resume"});
   EXPECT_EQ(fileNumber(image), first) << "traced again";
 }
 
-RawImage codes(const std::string& path) {
-  Warnings warnings;
-  return readRawImage(path, ImageLimits(), warnings);
-}
-
 // PNG has straight colors, EXR premultiplied ones; both have the same alpha.
-TEST(Images, ATransparentBackgroundIsAlpha) {
-  const TemporaryFolder folder;
-  render({"glossy", "-o", folder / "a.png", "-o", folder / "a.exr", "--size", "64x32", "--spp", "4",
-          "--background", "transparent", "--quiet"});
-  const RawImage png = codes(folder / "a.png"), exr = codes(folder / "a.exr");
+TEST_F(Images, ATransparentBackgroundIsAlpha) {
+  render({"glossy", "-o", folder_ / "a.png", "-o", folder_ / "a.exr", "--size", "64x32", "--spp",
+          "4", "--background", "transparent", "--quiet"});
+  const RawImage png = storedIn(folder_ / "a.png"), exr = storedIn(folder_ / "a.exr");
   ASSERT_EQ(png.channels, 4);
   ASSERT_EQ(exr.channels, 4);
 
@@ -375,12 +333,11 @@ TEST(Images, ATransparentBackgroundIsAlpha) {
   EXPECT_GT(partly, 10);
 }
 
-TEST(Images, ABackgroundColorIsShownAsItIs) {
-  const TemporaryFolder folder;
-  render({"glossy", "-o", folder / "a.png", "-o", folder / "a.jpg", "--size", "64x32",
+TEST_F(Images, ABackgroundColorIsShownAsItIs) {
+  render({"glossy", "-o", folder_ / "a.png", "-o", folder_ / "a.jpg", "--size", "64x32",
           "--background", "ff8000", "--exposure", "2", "--tonemap", "filmic", "--quiet"});
 
-  const RawImage png = codes(folder / "a.png"), jpeg = codes(folder / "a.jpg");
+  const RawImage png = storedIn(folder_ / "a.png"), jpeg = storedIn(folder_ / "a.jpg");
   ASSERT_EQ(jpeg.channels, 3);
   // JPEG rounds the brightness and the two differences of color of a flat block, and such an orange
   // lies at the border of what they can express.
@@ -395,10 +352,9 @@ TEST(Images, ABackgroundColorIsShownAsItIs) {
 
 // A mean difference below 8 codes allows for JPEG's losses at this quality, in flat and textured
 // parts alike.
-TEST(Images, AreWrittenAsJpeg) {
-  const TemporaryFolder folder;
-  render({"matte", "-o", folder / "a.png", "-o", folder / "a.jpg", "--size", "96x64", "--quiet"});
-  const RawImage png = codes(folder / "a.png"), jpeg = codes(folder / "a.jpg");
+TEST_F(Images, AreWrittenAsJpeg) {
+  render({"matte", "-o", folder_ / "a.png", "-o", folder_ / "a.jpg", "--size", "96x64", "--quiet"});
+  const RawImage png = storedIn(folder_ / "a.png"), jpeg = storedIn(folder_ / "a.jpg");
   ASSERT_EQ(jpeg.channels, 3);
   ASSERT_EQ(jpeg.codes.size(), png.codes.size());
 
@@ -408,28 +364,19 @@ TEST(Images, AreWrittenAsJpeg) {
   EXPECT_GT(sum, 0);
 }
 
-TEST(Images, WhatHasNoAlphaIsSaid) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const auto refusal = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), {"render", tiny});
-    const Outcome outcome = runWhit(words);
-    EXPECT_EQ(outcome.status, 2);
-    return outcome.err;
+TEST_F(Images, WhatHasNoAlphaIsSaid) {
+  const auto refused = [&](const Words& words, const std::string& why) {
+    expectFailure(joined({"render", tiny_}, words), 2, why);
   };
-
-  EXPECT_NE(refusal({"-o", folder / "a.jpg", "--background", "transparent"}).find("has no alpha"),
-            std::string::npos);
-  EXPECT_NE(refusal({"-o", folder / "a.jpg", "--resume"}).find("JPEG"), std::string::npos);
-  EXPECT_NE(refusal({"-o", folder / "a.png", "--background", "orange"}).find("ff8000"),
-            std::string::npos);
+  refused({"-o", folder_ / "a.jpg", "--background", "transparent"}, "has no alpha");
+  refused({"-o", folder_ / "a.jpg", "--resume"}, "JPEG");
+  refused({"-o", folder_ / "a.png", "--background", "orange"}, "ff8000");
 }
 
-TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
-  const TemporaryFolder folder, results, logs;
-  const std::string tiny = writeTinyScene(folder);
+TEST_F(Images, AnInterruptionLeavesOnlyWholeFiles) {
+  const TemporaryFolder results, logs;
   const pid_t child =
-      startWhit({"render", tiny, "-o", results / "f-#.exr", "--frames", "0..999999"}, logs);
+      startWhit({"render", tiny_, "-o", results / "f-#.exr", "--frames", "0..999999"}, logs);
   ASSERT_TRUE(waitUntil(child, [&] { return fs::exists(results / "f-3.exr"); }))
       << readFile(logs / "stderr");
 
@@ -442,12 +389,11 @@ TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
   }
 }
 
-TEST(Images, AnInterruptionDoesNotWaitForTheImage) {
+TEST_F(Images, AnInterruptionDoesNotWaitForTheImage) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder, results, logs;
-    const std::string tiny = writeTinyScene(folder);
     // This picture would take hours.
-    const pid_t child = startWhit({"render", tiny, "-o", results / "a.exr", "--size", "8192x8192",
+    const pid_t child = startWhit({"render", tiny_, "-o", results / "a.exr", "--size", "8192x8192",
                                    "--spp", "4096", "--mode", "reference"},
                                   logs);
     ASSERT_TRUE(waitUntil(child, [&] { return handlesInterrupts(child); }));

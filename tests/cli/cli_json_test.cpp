@@ -2,35 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "command_json.h"
 #include "core/machine_limits.h"
-#include "run_program.h"
+#include "has_text.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-using Json = nlohmann::json;
-
-Json resultOf(std::vector<std::string> words, int status = 0) {
-  words.insert(words.end(), {"--json", "-"});
-  const Outcome outcome = runWhit(words);
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  Json json = Json::parse(outcome.out, nullptr, false);
-  EXPECT_FALSE(json.is_discarded()) << outcome.out;
-  return json;
-}
-
-void expectKeys(const Json& json, const std::vector<std::string>& keys) {
+void expectKeys(const Json& json, const Words& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(json.contains(key)) << key;
 }
 
-class JsonResults : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  std::string tiny_ = writeTinyScene(folder_);
-};
+class JsonResults : public TinySceneTest {};
 
 void checkRun(const Json& run) {
   expectKeys(run,
@@ -58,7 +44,7 @@ void checkRun(const Json& run) {
 }
 
 TEST_F(JsonResults, Bench) {
-  const Json json = resultOf({"bench", tiny_, tiny_, "--frames", "3"});
+  const Json json = jsonOf({"bench", tiny_, tiny_, "--frames", "3"});
   EXPECT_EQ(json["schema"], 1);
   expectKeys(json["machine"], {"cpu", "cores", "simd", "embree", "compiler", "commit"});
   EXPECT_GE(json["machine"]["cores"].get<int>(), 1);
@@ -68,8 +54,8 @@ TEST_F(JsonResults, Bench) {
   EXPECT_EQ(json["runs"][0]["image_hash"], json["runs"][1]["image_hash"]);
   // Another picture has another hash.
   EXPECT_NE(json["runs"][0]["image_hash"],
-            resultOf({"bench", tiny_, "--frames", "1", "--exposure", "0", "--depth", "0", "--size",
-                      "9x7"})["runs"][0]["image_hash"]);
+            jsonOf({"bench", tiny_, "--frames", "1", "--exposure", "0", "--depth", "0", "--size",
+                    "9x7"})["runs"][0]["image_hash"]);
 
   const Json& run = json["runs"][0];
   EXPECT_EQ(run["scene"], "tiny");
@@ -87,7 +73,7 @@ TEST_F(JsonResults, Bench) {
 }
 
 TEST_F(JsonResults, BenchFloorAndWidths) {
-  const Json json = resultOf({"bench", tiny_, "--frames", "2", "--floor", "--widths"});
+  const Json json = jsonOf({"bench", tiny_, "--frames", "2", "--floor", "--widths"});
   ASSERT_EQ(json["runs"].size(), 4u);
   const int widths[] = {1, 4, 8, 16};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -104,16 +90,15 @@ TEST_F(JsonResults, BenchFloorAndWidths) {
 TEST_F(JsonResults, BenchAsATable) {
   const std::string file = folder_ / "bench.csv";
   const Json json =
-      resultOf({"bench", tiny_, "whitted", "--frames", "2", "--size", "16x10", "--csv", file});
+      jsonOf({"bench", tiny_, "whitted", "--frames", "2", "--size", "16x10", "--csv", file});
   const std::string csv = readFile(file);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 3) << csv;
   EXPECT_TRUE(csv.starts_with("scene,name,size,threads,packet,simd,mode,batch,robust,")) << csv;
-  EXPECT_NE(csv.find(",frame_ms_median,frame_ms_min,frame_ms_p95,fps,stages_ms_generateRays,"),
-            std::string::npos)
-      << csv;
-  EXPECT_NE(csv.find("\ntiny,,16x10,"), std::string::npos) << csv;
+  EXPECT_TRUE(
+      hasText(csv, ",frame_ms_median,frame_ms_min,frame_ms_p95,fps,stages_ms_generateRays,"));
+  EXPECT_TRUE(hasText(csv, "\ntiny,,16x10,"));
   for (const Json& run : json["runs"]) {
-    EXPECT_NE(csv.find(run["image_hash"].get<std::string>()), std::string::npos) << csv;
+    EXPECT_TRUE(hasText(csv, run["image_hash"].get<std::string>()));
     EXPECT_GE(run["other_tasks"].get<double>(), 0);
   }
 
@@ -121,7 +106,7 @@ TEST_F(JsonResults, BenchAsATable) {
 }
 
 TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
-  const Json json = resultOf({"bench", tiny_, "--frames", "1", "--threads-scaling"});
+  const Json json = jsonOf({"bench", tiny_, "--frames", "1", "--threads-scaling"});
 
   const int all = usableThreads();
   int expected = 1;
@@ -144,7 +129,7 @@ TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
 }
 
 TEST_F(JsonResults, BenchOfTheReferenceTakesOneFrame) {
-  const Json json = resultOf({"bench", tiny_, "--mode", "reference"});
+  const Json json = jsonOf({"bench", tiny_, "--mode", "reference"});
   ASSERT_EQ(json["runs"].size(), 1u);
   checkRun(json["runs"][0]);
   EXPECT_EQ(json["runs"][0]["frames"], 1);
@@ -152,14 +137,14 @@ TEST_F(JsonResults, BenchOfTheReferenceTakesOneFrame) {
   EXPECT_EQ(json["runs"][0]["rays"]["primary"], 48 * 32);
 }
 
-const std::vector<std::string> kCompareKeys{"rmse",      "relmse",
-                                            "psnr_db",   "flip_mean",
-                                            "max_code",  "pixels_ge_1_code_pct",
-                                            "nonfinite", "pixels_ge_2_codes_pct",
-                                            "time_ms",   "path_flips_per_mpx"};
+const Words kCompareKeys{"rmse",      "relmse",
+                         "psnr_db",   "flip_mean",
+                         "max_code",  "pixels_ge_1_code_pct",
+                         "nonfinite", "pixels_ge_2_codes_pct",
+                         "time_ms",   "path_flips_per_mpx"};
 
 TEST_F(JsonResults, CompareScene) {
-  const Json json = resultOf({"compare", tiny_, "--stages", "--depth", "3"});
+  const Json json = jsonOf({"compare", tiny_, "--stages", "--depth", "3"});
   expectKeys(json, kCompareKeys);
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["scene"], "tiny");
@@ -179,8 +164,8 @@ TEST_F(JsonResults, CompareScene) {
 
 TEST_F(JsonResults, CompareFiles) {
   const std::string a = folder_ / "a.exr";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", a}).status, 0);
-  const Json json = resultOf({"compare", a, a, "--exposure", "1"});
+  succeed({"render", tiny_, "-o", a});
+  const Json json = jsonOf({"compare", a, a, "--exposure", "1"});
 
   expectKeys(json, kCompareKeys);
   EXPECT_EQ(json["schema"], 1);
@@ -196,13 +181,13 @@ TEST_F(JsonResults, CompareFiles) {
 
   // Two pictures of which one is darker have no code in common, or are both black.
   const std::string b = folder_ / "b.exr";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", b, "--set", "/lights/0/intensity=[1,1,1]"}).status, 0);
-  EXPECT_GT(resultOf({"compare", a, b})["max_code"], 0);
-  EXPECT_EQ(resultOf({"compare", a, b, "--exposure", "-60"})["max_code"], 0);
+  succeed({"render", tiny_, "-o", b, "--set", "/lights/0/intensity=[1,1,1]"});
+  EXPECT_GT(jsonOf({"compare", a, b})["max_code"], 0);
+  EXPECT_EQ(jsonOf({"compare", a, b, "--exposure", "-60"})["max_code"], 0);
 }
 
 TEST_F(JsonResults, Info) {
-  const Json json = resultOf({"info", tiny_, "--disable", "shadows"});
+  const Json json = jsonOf({"info", tiny_, "--disable", "shadows"});
   expectKeys(json, {"triangles", "instances", "bounds", "materials", "lights", "textures",
                     "memory_mb", "warnings", "effects", "stages", "kernels"});
   EXPECT_EQ(json["triangles"], 2 + 20 * 4 * 4);  // quad, icosahedron split twice
@@ -222,7 +207,7 @@ TEST_F(JsonResults, Info) {
 }
 
 TEST_F(JsonResults, Scenes) {
-  const Json json = resultOf({"scenes"});
+  const Json json = jsonOf({"scenes"});
   EXPECT_EQ(json["schema"], 1);
   const auto atrium = std::ranges::find_if(
       json["scenes"], [](const Json& scene) { return scene["name"] == "atrium"; });
@@ -234,15 +219,15 @@ TEST_F(JsonResults, Scenes) {
 TEST_F(JsonResults, BenchCountsSpheres) {
   const Outcome outcome =
       runWhit({"bench", "whitted", "--size", "16x10", "--frames", "1", "--json", "-"});
-  EXPECT_NE(outcome.err.find("2 triangles, 3 spheres  "), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "2 triangles, 3 spheres  "));
   EXPECT_EQ(Json::parse(outcome.out)["runs"][0]["spheres"], 3);
 }
 
-TEST_F(JsonResults, InfoOfSpheres) { EXPECT_EQ(resultOf({"info", "whitted"})["spheres"], 3); }
+TEST_F(JsonResults, InfoOfSpheres) { EXPECT_EQ(jsonOf({"info", "whitted"})["spheres"], 3); }
 
 TEST_F(JsonResults, RenderWritesAFile) {
   const std::string image = folder_ / "a.png", file = folder_ / "a.json";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--depth", "3", "--json", file}).status, 0);
+  succeed({"render", tiny_, "-o", image, "--depth", "3", "--json", file});
   const Json json = Json::parse(readFile(file), nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   checkRun(json);
@@ -258,8 +243,8 @@ TEST_F(JsonResults, RenderWritesAFile) {
 
 TEST_F(JsonResults, RenderOfNothingButWhatIsThere) {
   const std::string image = folder_ / "a.png";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--resume"}).status, 0);
-  const Json json = resultOf({"render", tiny_, "-o", image, "--resume"});
+  succeed({"render", tiny_, "-o", image, "--resume"});
+  const Json json = jsonOf({"render", tiny_, "-o", image, "--resume"});
   EXPECT_EQ(json["scene"], "tiny");
   EXPECT_EQ(json["frames"], 0);
   EXPECT_EQ(json["files"], Json::array());

@@ -5,7 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/run_program.h"
+#include "has_text.h"
+#include "run_command.h"
 #include "sanitized.h"
 
 namespace whit::cli {
@@ -18,18 +19,9 @@ void limit(int resource, rlim_t most) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-class Limits : public testing::Test {
+class Limits : public TinySceneTest {
  protected:
-  Limits() : tiny_(writeTinyScene(folder_)) {}
-
-  void expectFailure(const Outcome& outcome, int status, const std::string& said) {
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_EQ(outcome.err.rfind("whit: ", 0), 0u) << outcome.err;
-    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-  }
-
-  TemporaryFolder folder_, results_;
-  std::string tiny_;
+  const TemporaryFolder results_;
 };
 
 TEST_F(Limits, AFullDeviceIsAnErrorOfWriting) {
@@ -40,29 +32,29 @@ TEST_F(Limits, AFullDeviceIsAnErrorOfWriting) {
   for (const char* name : {"full.exr", "full.png"}) {
     // "No space left on device", or "no space left, or the device failed" where the library that
     // writes keeps the reason to itself.
-    expectFailure(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4, "o space left");
+    expectFailed(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4, "o space left");
   }
 
-  expectFailure(runWhit({"info", tiny_, "--json", results_ / "full.json", "--quiet"}), 4,
-                "full.json");
+  expectFailed(runWhit({"info", tiny_, "--json", results_ / "full.json", "--quiet"}), 4,
+               "full.json");
 
   // Standard output on a full device is an error as well.
   const auto toFull = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
-  expectFailure(runWhit({"info", tiny_, "--quiet"}, toFull), 4, "cannot write");
-  expectFailure(runWhit({"render", "--help"}, toFull), 4, "cannot write");
+  expectFailed(runWhit({"info", tiny_, "--quiet"}, toFull), 4, "cannot write");
+  expectFailed(runWhit({"render", "--help"}, toFull), 4, "cannot write");
 }
 
 TEST_F(Limits, AFileThatMayNotGrowIsLeftOutWhole) {
   for (const std::string type : {".exr", ".png"}) {
     const std::string old = results_ / ("old" + type);
-    ASSERT_EQ(runWhit({"render", tiny_, "-o", old, "--size", "8x8", "--quiet"}).status, 0);
+    succeed({"render", tiny_, "-o", old, "--size", "8x8", "--quiet"});
     const std::string before = readFile(old);
 
     ASSERT_LT(before.size(), 4096u);
     for (const std::string& path : {old, results_ / ("new" + type)}) {
       const Outcome outcome = runWhit({"render", tiny_, "-o", path, "--size", "200x200", "--quiet"},
                                       [] { limit(RLIMIT_FSIZE, 4096); });
-      expectFailure(outcome, 4, "File too large");
+      expectFailed(outcome, 4, "File too large");
     }
 
     // The old file is kept, and no part of the new one is left.
@@ -86,7 +78,7 @@ TEST_F(Limits, TooLittleMemoryIsALimit) {
       ++successes;
     } else {
       ++failures;
-      expectFailure(outcome, 5, "");
+      expectFailed(outcome, 5, "");
       EXPECT_EQ(std::distance(fs::directory_iterator(results_.path()), {}), successes > 0);
     }
   }
@@ -101,7 +93,7 @@ TEST_F(Limits, AFilmWithoutMemoryIsALimit) {
   const Outcome outcome = runWhit({"render", tiny_, "-o", results_ / "a.exr", "--size",
                                    "16000x16000", "--max-memory", "64", "--threads", "1"},
                                   [] { limit(RLIMIT_AS, rlim_t{1} << 30); });
-  expectFailure(outcome, 5, "out of memory");
+  expectFailed(outcome, 5, "out of memory");
 }
 
 // The child process that decodes the mesh takes a part of the addresses that are left.
@@ -117,7 +109,7 @@ TEST_F(Limits, DracoWorksUnderALimitOfAddressSpace) {
   }
 
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("triangles   8"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(hasText(outcome.out, "triangles   8"));
 }
 
 TEST_F(Limits, WorkersAreNoMoreThanTheProcessMayUse) {

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "command_json.h"
+#include "has_text.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -17,34 +18,34 @@ std::string writeModel(const TemporaryFolder& folder) {
   return folder / "model.obj";
 }
 
-std::map<std::string, std::string> saidIn(const std::string& path) {
-  std::map<std::string, std::string> said;
-  for (const auto& [name, text] : readPngMetadata(path)) said[name] = text;
-  return said;
-}
+class Models : public TinySceneTest {
+ protected:
+  std::vector<std::uint8_t> codesOf(const std::string& scene, const Words& more = {}) const {
+    const std::string picture = folder_ / "codes.png";
+    succeed(joined({"render", scene, "-o", picture, "--size", "48x30", "--quiet"}, more));
+    return storedIn(picture).codes;
+  }
 
-TEST(Models, InfoNamesTheSky) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), tiny = writeTinyScene(folder);
-  const auto sky = [](std::vector<std::string> words) {
-    words.insert(words.begin(), "info");
-    words.insert(words.end(), {"--json", "-"});
-    return nlohmann::json::parse(runWhit(words).out)["sky"].get<std::string>();
+  const std::string model_ = writeModel(folder_);
+};
+
+TEST_F(Models, InfoNamesTheSky) {
+  const auto sky = [](const Words& more) {
+    return jsonOf(joined({"info"}, more))["sky"].get<std::string>();
   };
 
-  EXPECT_EQ(sky({model}), "studio");
-  EXPECT_EQ(sky({model, "--sky", "none"}), "none");
-  EXPECT_EQ(sky({tiny}), "none");
-  EXPECT_EQ(sky({tiny, "--sky", "studio"}), "studio");
-  const std::string said = runWhit({"info", model}).out;
-  EXPECT_NE(said.find("sky         studio"), std::string::npos);
-  EXPECT_NE(said.find("exposure auto (model)"), std::string::npos) << said;
+  EXPECT_EQ(sky({model_}), "studio");
+  EXPECT_EQ(sky({model_, "--sky", "none"}), "none");
+  EXPECT_EQ(sky({tiny_}), "none");
+  EXPECT_EQ(sky({tiny_, "--sky", "studio"}), "studio");
+  const std::string said = runWhit({"info", model_}).out;
+  EXPECT_TRUE(hasText(said, "sky         studio"));
+  EXPECT_TRUE(hasText(said, "exposure auto (model)"));
 }
 
 // The triangle is black, except in the variant "glowing \"red\"".
-TEST(Models, VariantsAreListedAndChosen) {
-  const TemporaryFolder folder;
-  const std::string model = folder / "variants.gltf", picture = folder / "p.png";
+TEST_F(Models, VariantsAreListedAndChosen) {
+  const std::string model = folder_ / "variants.gltf", picture = folder_ / "p.png";
   std::ofstream(model) << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
       "material": 0, "extensions": {"KHR_materials_variants": {"mappings": [
@@ -57,163 +58,123 @@ TEST(Models, VariantsAreListedAndChosen) {
       "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
-  const nlohmann::json listed =
-      nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["variants"];
-  EXPECT_EQ(listed, nlohmann::json::parse(R"(["plain", "glowing \"red\""])"));
-  EXPECT_NE(runWhit({"info", model}).out.find("variant     plain\n"), std::string::npos);
+  const Json listed = jsonOf({"info", model})["variants"];
+  EXPECT_EQ(listed, Json::parse(R"(["plain", "glowing \"red\""])"));
+  EXPECT_TRUE(hasText(runWhit({"info", model}).out, "variant     plain\n"));
 
   const auto effects = [&](const std::string& variant) {
     const Outcome info = runWhit({"info", model, "--variant", variant, "--json", "-"});
-    return nlohmann::json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
+    return Json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
   };
   EXPECT_FALSE(effects("plain"));
   EXPECT_TRUE(effects("glowing \"red\""));
 
   const Outcome refused = runWhit({"render", model, "-o", picture, "--variant", "blue"});
   EXPECT_NE(refused.status, 0);
-  EXPECT_NE(refused.err.find("/variant: expected one of \"plain\", \"glowing \"red\"\""),
-            std::string::npos)
-      << refused.err;
+  EXPECT_TRUE(hasText(refused.err, "/variant: expected one of \"plain\", \"glowing \"red\"\""));
 
-  writeTinyScene(folder);
-  const Outcome ofScene = runWhit({"info", folder / "tiny.json", "--variant", "plain"});
-  EXPECT_NE(ofScene.err.find("tiny.json#/variant: variants are those of glTF files: a scene states "
-                             "one in the item of the model, as {\"model\": \"shoe.glb\", \"vari"),
-            std::string::npos)
-      << ofScene.err;
+  const Outcome ofScene = runWhit({"info", folder_ / "tiny.json", "--variant", "plain"});
+  EXPECT_TRUE(hasText(ofScene.err,
+                      "tiny.json#/variant: variants are those of glTF files: a scene states "
+                      "one in the item of the model, as {\"model\": \"shoe.glb\", \"vari"));
 }
 
-TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), a = folder / "a.png", b = folder / "b.png";
+TEST_F(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
+  const std::string a = folder_ / "a.png", b = folder_ / "b.png";
 
-  const Outcome first = runWhit({"render", model, "-o", a, "--size", "48x30", "--json", "-"});
-  ASSERT_EQ(first.status, 0) << first.err;
-  const std::string ev = saidIn(a).at("exposure");
+  const Outcome first = succeed({"render", model_, "-o", a, "--size", "48x30", "--json", "-"});
+  const std::string ev = metadataOf(a).at("exposure");
   EXPECT_NE(ev, "auto");
   EXPECT_NE(ev, "0");
-  EXPECT_EQ(saidIn(a).at("terminator"), "on");
-  EXPECT_EQ(nlohmann::json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
-  EXPECT_NE(first.err.find("exposure "), std::string::npos);
-  EXPECT_EQ(first.err.find("exposure 0"), std::string::npos);
+  EXPECT_EQ(metadataOf(a).at("terminator"), "on");
+  EXPECT_EQ(Json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
+  EXPECT_TRUE(hasText(first.err, "exposure "));
+  EXPECT_FALSE(hasText(first.err, "exposure 0"));
 
   // The exposure that the first picture states makes the same picture.
-  ASSERT_EQ(runWhit({"render", model, "-o", b, "--size", "48x30", "--quiet", "--exposure", ev,
-                     "--terminator", "on"})
-                .status,
-            0);
+  succeed({"render", model_, "-o", b, "--size", "48x30", "--quiet", "--exposure", ev,
+           "--terminator", "on"});
   EXPECT_EQ(readFile(a), readFile(b));
 
-  EXPECT_EQ(runWhit({"render", model, "-o", a, "--quiet"}).err, "");
-  EXPECT_EQ(saidIn(a).at("exposure"), ev) << "of another size";
+  EXPECT_EQ(runWhit({"render", model_, "-o", a, "--quiet"}).err, "");
+  EXPECT_EQ(metadataOf(a).at("exposure"), ev) << "of another size";
 }
 
-std::vector<std::uint8_t> codesOf(const std::string& scene, std::vector<std::string> more,
-                                  const TemporaryFolder& folder) {
-  const std::string picture = folder / "codes.png";
-  std::vector<std::string> words{"render", scene, "-o", picture, "--size", "48x30", "--quiet"};
-  words.insert(words.end(), more.begin(), more.end());
-  const Outcome outcome = runWhit(words);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  Warnings warnings;
-  return readRawImage(picture, ImageLimits(), warnings).codes;
-}
-
-TEST(Models, ASceneFileCanShowOneAsTheCommandDoes) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), scene = folder / "scene.json";
+TEST_F(Models, ASceneFileCanShowOneAsTheCommandDoes) {
+  const std::string scene = folder_ / "scene.json";
   const auto write = [&](const std::string& more) {
     std::ofstream(scene) << R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}])"
                          << more << "}";
     return scene;
   };
 
-  const auto shown = codesOf(model, {}, folder);
-  EXPECT_EQ(codesOf(write(""), {}, folder), shown);
-  EXPECT_EQ(codesOf(scene, {"--sky", "none"}, folder), codesOf(model, {"--sky", "none"}, folder));
+  const auto shown = codesOf(model_);
+  EXPECT_EQ(codesOf(write("")), shown);
+  EXPECT_EQ(codesOf(scene, {"--sky", "none"}), codesOf(model_, {"--sky", "none"}));
 
   // The studio suits the lights, whether it is named or not.
   write(R"(, "lights": [{"position": [0, 9, 0], "intensity": 0.01}])");
-  EXPECT_EQ(codesOf(scene, {"--sky", "studio"}, folder), codesOf(scene, {}, folder));
+  EXPECT_EQ(codesOf(scene, {"--sky", "studio"}), codesOf(scene));
 
   // What the file has is kept.
-  const auto dark = codesOf(write(R"(, "options": {"exposure": -3})"), {}, folder);
-  EXPECT_EQ(dark, codesOf(model, {"--exposure", "-3"}, folder));
+  const auto dark = codesOf(write(R"(, "options": {"exposure": -3})"));
+  EXPECT_EQ(dark, codesOf(model_, {"--exposure", "-3"}));
   EXPECT_NE(dark, shown);
   for (const char* own : {R"("sky": {"color": [1, 0, 0]})", R"("ambient": {"color": [1, 0, 0]})",
                           R"("lights": [{"position": [0, 9, 0], "intensity": 50}])",
                           R"("cameras": {"near": {"eye": [0.5, 0.5, 1], "at": [0.5, 0.5, 0]}})"}) {
     const std::string members = std::string(", \"options\": {\"exposure\": 0}, ") + own;
-    EXPECT_NE(codesOf(write(members), {}, folder), codesOf(model, {"--exposure", "0"}, folder))
-        << own;
+    EXPECT_NE(codesOf(write(members)), codesOf(model_, {"--exposure", "0"})) << own;
   }
 
   std::ofstream(scene) << R"({"whit": 1, "view": "round", "scene": [{"model": "model.obj"}]})";
-  const Outcome refused = runWhit({"info", scene});
-  EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("scene.json#/view: expected"), std::string::npos) << refused.err;
+  expectFailure({"info", scene}, 3, "scene.json#/view: expected");
 }
 
 constexpr char kPose[] = R"({"eye": [0.5, 1.5, 4], "at": [0.8, 0.5, 0], "k": [40, 44, 23, 16],
                              "kSize": [48, 30], "distortion": [0.1, 0.02]})";
 
 // One camera by three ways: a file of its own, a setting, and a scene file.
-TEST(Models, TakeACameraFromAFile) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), pose = folder / "pose.json";
+TEST_F(Models, TakeACameraFromAFile) {
+  const std::string pose = folder_ / "pose.json";
   std::ofstream(pose) << kPose;
-  std::ofstream(folder / "scene.json")
+  std::ofstream(folder_ / "scene.json")
       << R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}], "cameras": {"own": )"
       << kPose << "}}";
 
-  const auto seen = codesOf(model, {"--camera", pose}, folder);
-  EXPECT_NE(seen, codesOf(model, {}, folder));
-  EXPECT_EQ(
-      codesOf(model, {"--camera", "mine", "--set", "/cameras/mine=" + std::string(kPose)}, folder),
-      seen);
-  EXPECT_EQ(codesOf(folder / "scene.json", {}, folder), seen);
-  EXPECT_EQ(codesOf(writeTinyScene(folder),
-                    {"--camera", pose, "--set", "/cameras/pose/k=[9,9,9,9]"}, folder)
-                .size(),
+  const auto seen = codesOf(model_, {"--camera", pose});
+  EXPECT_NE(seen, codesOf(model_));
+  EXPECT_EQ(codesOf(model_, {"--camera", "mine", "--set", "/cameras/mine=" + std::string(kPose)}),
+            seen);
+  EXPECT_EQ(codesOf(folder_ / "scene.json"), seen);
+  EXPECT_EQ(codesOf(tiny_, {"--camera", pose, "--set", "/cameras/pose/k=[9,9,9,9]"}).size(),
             seen.size())
       << "a scene takes one as well";
 
   std::ofstream(pose) << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3})";
-  const Outcome refused = runWhit({"info", model, "--camera", pose});
-  EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("pose.json#/lens: "), std::string::npos) << refused.err;
+  expectFailure({"info", model_, "--camera", pose}, 3, "pose.json#/lens: ");
   std::ofstream(pose) << "{\n\"eye\" [";
-  const Outcome broken = runWhit({"info", model, "--camera", pose});
-  EXPECT_EQ(broken.status, 3);
-  EXPECT_NE(broken.err.find("pose.json:2"), std::string::npos) << broken.err;
-  EXPECT_EQ(runWhit({"info", model, "--camera", folder / "none.json"}).status, 4);
+  expectFailure({"info", model_, "--camera", pose}, 3, "pose.json:2");
+  EXPECT_EQ(runWhit({"info", model_, "--camera", folder_ / "none.json"}).status, 4);
 }
 
-TEST(Models, TheirCamerasHaveMembersToSet) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder);
-  const auto cameras =
-      nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["cameras"];
+TEST_F(Models, TheirCamerasHaveMembersToSet) {
+  const auto cameras = jsonOf({"info", model_})["cameras"];
   ASSERT_EQ(cameras.size(), 1u);
   const std::string pointer = "/cameras/" + cameras[0].get<std::string>();
-  const auto narrow = codesOf(model, {"--set", pointer + "/fov=20"}, folder);
-  EXPECT_EQ(narrow, codesOf(model, {"--fov", "20"}, folder));
-  EXPECT_NE(narrow, codesOf(model, {}, folder));
+  const auto narrow = codesOf(model_, {"--set", pointer + "/fov=20"});
+  EXPECT_EQ(narrow, codesOf(model_, {"--fov", "20"}));
+  EXPECT_NE(narrow, codesOf(model_));
 }
 
-TEST(Models, ACropIsExposedAsTheWhole) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), tiny = writeTinyScene(folder);
-  const auto codes = [&](const std::string& scene, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", scene,   "-o",         folder / "x.png",
-                                   "--size", "40x25", "--exposure", "auto"};
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(runWhit(words).status, 0);
-    Warnings warnings;
-    return readRawImage(folder / "x.png", ImageLimits(), warnings).codes;
+TEST_F(Models, ACropIsExposedAsTheWhole) {
+  const auto codes = [&](const std::string& scene, const Words& more) {
+    succeed(joined(
+        {"render", scene, "-o", folder_ / "x.png", "--size", "40x25", "--exposure", "auto"}, more));
+    return storedIn(folder_ / "x.png").codes;
   };
 
-  for (const std::string& scene : {model, tiny}) {
+  for (const std::string& scene : {model_, tiny_}) {
     const auto whole = codes(scene, {}), corner = codes(scene, {"--crop", "0,0,40,3"});
     // The crop holds the first rows, so its codes are the first of the whole picture.
     ASSERT_GE(whole.size(), corner.size());
@@ -221,49 +182,38 @@ TEST(Models, ACropIsExposedAsTheWhole) {
   }
 }
 
-TEST(Models, FramesOfAPathAreExposedAlike) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "f#.png", "--frames", "0..1", "--fps", "1",
-                     "--exposure", "auto", "--quiet"})
-                .status,
-            0);
+TEST_F(Models, FramesOfAPathAreExposedAlike) {
+  succeed({"render", tiny_, "-o", folder_ / "f#.png", "--frames", "0..1", "--fps", "1",
+           "--exposure", "auto", "--quiet"});
 
-  const std::string ev = saidIn(folder / "f0.png").at("exposure");
-  EXPECT_EQ(saidIn(folder / "f1.png").at("exposure"), ev);
-  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "g#.png", "--frames", "1", "--fps", "1",
-                     "--exposure", "auto", "--quiet"})
-                .status,
-            0);
-  EXPECT_EQ(readFile(folder / "g1.png"), readFile(folder / "f1.png"));
+  const std::string ev = metadataOf(folder_ / "f0.png").at("exposure");
+  EXPECT_EQ(metadataOf(folder_ / "f1.png").at("exposure"), ev);
+  succeed({"render", tiny_, "-o", folder_ / "g#.png", "--frames", "1", "--fps", "1", "--exposure",
+           "auto", "--quiet"});
+  EXPECT_EQ(readFile(folder_ / "g1.png"), readFile(folder_ / "f1.png"));
 }
 
-TEST(Models, TheSkyAskedForIsKeptInThePicture) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder), a = folder / "a.png";
-  ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--sky", "studio", "--quiet"}).status, 0);
-  EXPECT_EQ(saidIn(a).at("sky"), "studio");
-  EXPECT_EQ(saidIn(a).at("exposure"), "0") << "a scene file";
+TEST_F(Models, TheSkyAskedForIsKeptInThePicture) {
+  const std::string a = folder_ / "a.png";
+  succeed({"render", tiny_, "-o", a, "--sky", "studio", "--quiet"});
+  EXPECT_EQ(metadataOf(a).at("sky"), "studio");
+  EXPECT_EQ(metadataOf(a).at("exposure"), "0") << "a scene file";
 
-  ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--quiet"}).status, 0);
-  EXPECT_EQ(saidIn(a).count("sky"), 0u);
+  succeed({"render", tiny_, "-o", a, "--quiet"});
+  EXPECT_EQ(metadataOf(a).count("sky"), 0u);
 }
 
-TEST(Models, WrongUsageIsTold) {
-  const TemporaryFolder folder;
-  const std::string model = writeModel(folder), a = folder / "a.exr";
-  const Outcome bad = runWhit({"render", model, "-o", a, "--exposure", "bright"});
-  EXPECT_EQ(bad.status, 2);
-  EXPECT_NE(bad.err.find("auto or a number from -64 to 64"), std::string::npos) << bad.err;
+TEST_F(Models, WrongUsageIsTold) {
+  const std::string a = folder_ / "a.exr";
+  expectFailure({"render", model_, "-o", a, "--exposure", "bright"}, 2,
+                "auto or a number from -64 to 64");
 
-  const Outcome gone = runWhit({"render", model, "-o", a, "--sky", folder / "gone.hdr"});
-  EXPECT_EQ(gone.status, 4);
-  EXPECT_NE(gone.err.find("gone.hdr"), std::string::npos) << gone.err;
+  expectFailure({"render", model_, "-o", a, "--sky", folder_ / "gone.hdr"}, 4, "gone.hdr");
 
-  ASSERT_EQ(runWhit({"render", model, "-o", a, "--quiet", "--size", "8x8"}).status, 0);
+  succeed({"render", model_, "-o", a, "--quiet", "--size", "8x8"});
   EXPECT_EQ(runWhit({"compare", a, a, "--sky", "none"}).status, 2);
   EXPECT_EQ(runWhit({"compare", a, a, "--exposure", "auto"}).status, 2);
-  EXPECT_EQ(runWhit({"compare", model, "--size", "24x16", "--quiet"}).status, 0);
+  succeed({"compare", model_, "--size", "24x16", "--quiet"});
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Films of a scene that moves: each frame follows from its time alone.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "command_json.h"
+#include "has_text.h"
 #include "io/gltf_files.h"
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -14,15 +14,15 @@ namespace {
 std::string writeMoving(const TemporaryFolder& folder) {
   GltfBuilder b;
   const std::string shown = triangle(b);
-  const int times =
+  const std::string times =
       b.accessor(b.view(bytesOf<float>({0, 2})), 5126, "SCALAR", 2, ",\"min\":[0],\"max\":[2]");
-  const int up = b.positions({0, 0, 0, 0, 2, 0}), away = b.positions({1, 1, 1, 0, 0, 0});
+  const std::string up = b.positions({0, 0, 0, 0, 2, 0}), away = b.positions({1, 1, 1, 0, 0, 0});
   const auto channel = [](int sampler, int node, const std::string& path) {
     return "{\"sampler\":" + std::to_string(sampler) +
            ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path + "\"}}";
   };
-  const auto sampler = [&](int output) {
-    return "{\"input\":" + std::to_string(times) + ",\"output\":" + std::to_string(output) + "}";
+  const auto sampler = [&](const std::string& output) {
+    return "{\"input\":" + times + ",\"output\":" + output + "}";
   };
 
   std::ofstream(folder / "moving.gltf") << b.json(
@@ -34,52 +34,43 @@ std::string writeMoving(const TemporaryFolder& folder) {
   return folder / "moving.gltf";
 }
 
-void expectFilmed(const std::vector<std::string>& words) {
-  const Outcome outcome = runWhit(words);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-}
+class Motion : public TinySceneTest {
+ protected:
+  const std::string moving_ = writeMoving(folder_);
+};
 
-TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
-  const TemporaryFolder folder;
-  const std::string moving = writeMoving(folder);
+TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectFilmed({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps",
-                  "2", "--size", "64x40", "--threads", threads, "--quiet"});
+    succeed({"render", moving_, "-o", folder_ / (name + "#.exr"), "--frames", frames, "--fps", "2",
+             "--size", "64x40", "--threads", threads, "--quiet"});
   };
 
   film("film", "0..4", "2");
   film("alone", "3", "1");
   film("many", "3", "8");
-  const std::string third = readFile(folder / "film3.exr");
-  EXPECT_NE(third, readFile(folder / "film2.exr"));
-  EXPECT_TRUE(third == readFile(folder / "alone3.exr"));
+  const std::string third = readFile(folder_ / "film3.exr");
+  EXPECT_NE(third, readFile(folder_ / "film2.exr"));
+  EXPECT_TRUE(third == readFile(folder_ / "alone3.exr"));
 
-  const auto pixels = [&](const std::string& name) {
-    Warnings warnings;
-    return readRawImage(folder / name, ImageLimits(), warnings).values;
-  };
+  const auto pixels = [&](const std::string& name) { return storedIn(folder_ / name).values; };
   EXPECT_EQ(pixels("film3.exr"), pixels("many3.exr"));
 
   // The option --time gives the picture of the frame at that time.
-  expectFilmed({"render", moving, "-o", folder / "instant.exr", "--time", "1.5", "--size", "64x40",
-                "--exposure", "0", "--quiet"});
-  expectFilmed({"render", moving, "-o", folder / "frame#.exr", "--frames", "3", "--fps", "2",
-                "--size", "64x40", "--exposure", "0", "--quiet"});
+  succeed({"render", moving_, "-o", folder_ / "instant.exr", "--time", "1.5", "--size", "64x40",
+           "--exposure", "0", "--quiet"});
+  succeed({"render", moving_, "-o", folder_ / "frame#.exr", "--frames", "3", "--fps", "2", "--size",
+           "64x40", "--exposure", "0", "--quiet"});
   EXPECT_EQ(pixels("instant.exr"), pixels("frame3.exr"));
 }
 
-TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
-  const TemporaryFolder folder;
+TEST_F(Motion, AShippedFilmHasTheSameFramesInParts) {
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectFilmed({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames,
-                  "--size", "32x20", "--threads", threads, "--quiet"});
+    succeed({"render", "orrery", "-o", folder_ / (name + "##.exr"), "--frames", frames, "--size",
+             "32x20", "--threads", threads, "--quiet"});
   };
-  const auto pixels = [&](const std::string& name) {
-    Warnings warnings;
-    return readRawImage(folder / name, ImageLimits(), warnings).values;
-  };
+  const auto pixels = [&](const std::string& name) { return storedIn(folder_ / name).values; };
 
   film("whole", "0..99", "2");
   film("one", "57", "1");
@@ -89,52 +80,40 @@ TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
   EXPECT_EQ(pixels("whole57.exr"), pixels("eight57.exr"));
 }
 
-TEST(Motion, IsTimedAndListed) {
-  const TemporaryFolder folder;
-  const std::string moving = writeMoving(folder);
+TEST_F(Motion, IsTimedAndListed) {
+  const Outcome info = runWhit({"info", moving_});
+  EXPECT_TRUE(hasText(info.out, "animation   up: 2 s, moves 2 nodes\n"));
+  const Json listed = jsonOf({"info", moving_})["animations"];
+  EXPECT_EQ(listed, Json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
 
-  const Outcome info = runWhit({"info", moving});
-  EXPECT_NE(info.out.find("animation   up: 2 s, moves 2 nodes\n"), std::string::npos) << info.out;
-  const nlohmann::json listed =
-      nlohmann::json::parse(runWhit({"info", moving, "--json", "-"}).out)["animations"];
-  EXPECT_EQ(listed, nlohmann::json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
-
-  const Outcome film = runWhit({"render", moving, "-o", folder / "f#.png", "--frames", "0..1",
-                                "--size", "32x20", "--stats", "--json", folder / "f.json"});
-  EXPECT_NE(film.err.find("updateScene"), std::string::npos) << film.err;
-  EXPECT_GT(nlohmann::json::parse(readFile(folder / "f.json"))["updateScene_ms"], 0);
+  const Outcome film = runWhit({"render", moving_, "-o", folder_ / "f#.png", "--frames", "0..1",
+                                "--size", "32x20", "--stats", "--json", folder_ / "f.json"});
+  EXPECT_TRUE(hasText(film.err, "updateScene"));
+  EXPECT_GT(Json::parse(readFile(folder_ / "f.json"))["updateScene_ms"], 0);
 }
 
-TEST(Motion, ACameraPathIsLookedAlongAtAnInstant) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  expectFilmed({"render", tiny, "-o", folder / "t.png", "--time", "0.5", "--quiet"});
-  expectFilmed({"render", tiny, "-o", folder / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
+TEST_F(Motion, ACameraPathIsLookedAlongAtAnInstant) {
+  succeed({"render", tiny_, "-o", folder_ / "t.png", "--time", "0.5", "--quiet"});
+  succeed({"render", tiny_, "-o", folder_ / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
 
-  const auto codes = [&](const std::string& name) {
-    Warnings warnings;
-    return readRawImage(folder / name, ImageLimits(), warnings).codes;
-  };
+  const auto codes = [&](const std::string& name) { return storedIn(folder_ / name).codes; };
   EXPECT_EQ(codes("t.png"), codes("f1.png"));
 }
 
-TEST(Motion, WrongUsageIsTold) {
-  const TemporaryFolder folder;
-  const std::string moving = writeMoving(folder), f = folder / "f#.png";
-  const auto refused = [](const std::vector<std::string>& words, const std::string& why) {
-    const Outcome outcome = runWhit(words);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+TEST_F(Motion, WrongUsageIsTold) {
+  const std::string f = folder_ / "f#.png";
+  const auto refused = [](const Words& words, const std::string& why) {
+    expectFailure(words, 2, why);
   };
 
-  refused({"render", moving, "-o", f, "--frames", "0..1", "--time", "1"}, "give one");
-  refused({"render", moving, "-o", f, "--frames", "0..1", "--animation", "upp"},
+  refused({"render", moving_, "-o", f, "--frames", "0..1", "--time", "1"}, "give one");
+  refused({"render", moving_, "-o", f, "--frames", "0..1", "--animation", "upp"},
           "did you mean 'up'?");
-  std::ofstream(folder / "still.obj") << kTriangleObj;
-  refused({"render", folder / "still.obj", "-o", folder / "m.png", "--time", "1"},
+  std::ofstream(folder_ / "still.obj") << kTriangleObj;
+  refused({"render", folder_ / "still.obj", "-o", folder_ / "m.png", "--time", "1"},
           "nothing moves in still");
-  refused({"render", folder / "still.obj", "-o", f, "--frames", "0..1"}, "nothing moves in");
-  refused({"render", moving, "-o", folder / "m.png", "--time", "soon"}, "--time");
+  refused({"render", folder_ / "still.obj", "-o", f, "--frames", "0..1"}, "nothing moves in");
+  refused({"render", moving_, "-o", folder_ / "m.png", "--time", "soon"}, "--time");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "command_line/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "has_text.h"
 #include "output/image_output.h"
 
 namespace whit::cli {
@@ -103,7 +104,7 @@ TEST(Options, SaysWhatWasExpected) {
   for (const BadWords& c : cases) {
     const std::string words = testing::PrintToString(c.words);
     const std::string error = usageError(c.words);
-    EXPECT_NE(error.find(c.said), std::string::npos) << words << " said: " << error;
+    EXPECT_TRUE(hasText(error, c.said)) << words;
   }
 }
 
@@ -120,7 +121,7 @@ TEST(Help, HasTheOptionsOfEveryDayFirst) {
   const std::string whole = helpOf(HelpTier::everyday, 80), all = helpOf(HelpTier::all, 80);
   const std::string brief = whole.substr(0, whole.find("What --quality"));
   for (const char* option : {"--size WxH", "--spp N", "--quality", "--quiet"}) {
-    EXPECT_NE(brief.find(option), std::string::npos) << brief;
+    EXPECT_TRUE(hasText(brief, option));
   }
   std::size_t left = 0;
   const RenderOptions defaults;
@@ -132,8 +133,8 @@ TEST(Help, HasTheOptionsOfEveryDayFirst) {
     EXPECT_EQ(brief.find(name) != std::string::npos, spec.everyday) << name;
     left += !spec.everyday;
   });
-  EXPECT_NE(brief.find("all options, " + std::to_string(left + 4) + " more"), std::string::npos)
-      << brief;  // and four of loading
+  EXPECT_TRUE(
+      hasText(brief, "all options, " + std::to_string(left + 4) + " more"));  // and four of loading
 }
 
 TEST(Help, FitsTheTerminal) {
@@ -150,10 +151,9 @@ TEST(Help, FitsTheTerminal) {
 
 TEST(Help, SaysWhatThePresetsStandFor) {
   const std::string help = helpOf(HelpTier::everyday, 120);
-  EXPECT_NE(help.find("  reference                 --spp 16 --cutoff 1e-05 --mode reference\n"),
-            std::string::npos)
-      << help;
-  EXPECT_NE(help.find("  standard                  the defaults\n"), std::string::npos) << help;
+  EXPECT_TRUE(
+      hasText(help, "  reference                 --spp 16 --cutoff 1e-05 --mode reference\n"));
+  EXPECT_TRUE(hasText(help, "  standard                  the defaults\n"));
   // What is said makes the same options as the preset.
   for (const QualityPreset& preset : qualityPresets()) {
     std::vector<std::string> words;
@@ -218,7 +218,7 @@ TEST(Quality, StandardIsTheDefaults) {
 }
 
 TEST(Quality, AFormerPresetLeadsToTheNearOne) {
-  EXPECT_NE(usageError({"--quality", "fine"}).find("did you mean 'good'?"), std::string::npos);
+  EXPECT_TRUE(hasText(usageError({"--quality", "fine"}), "did you mean 'good'?"));
 }
 
 TEST(Options, OfAModelsViewAreMembersOfItsScene) {
@@ -261,9 +261,7 @@ TEST(Background, GoesBothWays) {
     EXPECT_EQ(optionText(parsed({"--background", text}).render, "background"), text);
   }
   for (const char* text : {"", "ffff", "ff80zz", "ff800000", "#", "Sky"}) {
-    EXPECT_NE(usageError({"s", "--background", text}).find("--background: expected"),
-              std::string::npos)
-        << text;
+    EXPECT_TRUE(hasText(usageError({"s", "--background", text}), "--background: expected")) << text;
   }
 }
 

@@ -3,11 +3,13 @@
 #include <sys/stat.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "core/option_table.h"
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "has_text.h"
+#include "io/image/image_layers.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -20,16 +22,9 @@ std::string writeStating(const TemporaryFolder& folder, const std::string& optio
   return folder / "stating.json";
 }
 
-Outcome picture(const std::string& scene, const std::string& image,
-                std::vector<std::string> words = {}) {
+Outcome picture(const std::string& scene, const std::string& image, Words words = {}) {
   words.insert(words.begin(), {"render", scene, "-o", image, "--quiet"});
   return runWhit(words);
-}
-
-std::map<std::string, std::string> statedIn(const std::string& image) {
-  std::map<std::string, std::string> all;
-  for (const auto& [name, text] : readExrMetadata(image)) all[name] = text;
-  return all;
 }
 
 RenderOptions settled(const std::map<std::string, std::string>& stated,
@@ -58,12 +53,10 @@ TEST(SceneOptions, AreThoseOfThePlainCommand) {
                        "--tonemap", "filmic"})
                   .status,
               0);
-    Warnings warnings;
-    EXPECT_EQ(readRawImage(plain, ImageLimits(), warnings).codes,
-              readRawImage(asked, ImageLimits(), warnings).codes);
+    EXPECT_EQ(storedIn(plain).codes, storedIn(asked).codes);
   }
 
-  const auto stated = statedIn(folder / "a.exr");
+  const auto stated = metadataOf(folder / "a.exr");
   EXPECT_EQ(stated.at("spp"), "2");
   EXPECT_EQ(stated.at("exposure"), "1.5");
 }
@@ -121,16 +114,14 @@ TEST(SceneOptions, AreThoseThatDescribeThePicture) {
 TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
   const TemporaryFolder folder;
   const std::string scene = writeStating(folder, R"("spp": 8, "indirect": 4, "glossy": 2)");
-  const auto info = [&](std::vector<std::string> words) {
+  const auto info = [&](Words words) {
     words.insert(words.begin(), {"info", scene});
     return runWhit(words).out;
   };
-  EXPECT_NE(info({}).find("options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"),
-            std::string::npos)
-      << info({});
+  EXPECT_TRUE(hasText(info({}), "options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"));
 
   const auto rows =
-      nlohmann::json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
+      Json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
   const auto row = [&](const char* name) {
     return rows[name]["value"].get<std::string>() + " " + rows[name]["from"].get<std::string>();
   };
@@ -139,10 +130,7 @@ TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
   EXPECT_EQ(row("glossy"), "3 command line");
   EXPECT_EQ(row("indirect"), "4 scene");
   EXPECT_FALSE(rows.contains("depth"));
-  EXPECT_EQ(
-      nlohmann::json::parse(runWhit({"info", folder / "tiny.json", "--json", "-"}).out)["options"]
-          .size(),
-      0u);
+  EXPECT_EQ(jsonOf({"info", folder / "tiny.json"})["options"].size(), 0u);
 }
 
 TEST(SceneOptions, AreResumedAndCropped) {
@@ -163,10 +151,8 @@ TEST(SceneOptions, AreResumedAndCropped) {
   // Crops merge to the whole only if both take the scene's options.
   ASSERT_EQ(picture(scene, folder / "l.exr", {"--crop", "0,0,20,32"}).status, 0);
   ASSERT_EQ(picture(scene, folder / "r.exr", {"--crop", "20,0,48,32"}).status, 0);
-  ASSERT_EQ(runWhit({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"}).status, 0);
-  Warnings warnings;
-  EXPECT_EQ(readRawImage(folder / "m.exr", ImageLimits(), warnings).codes,
-            readRawImage(image, ImageLimits(), warnings).codes);
+  succeed({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"});
+  EXPECT_EQ(storedIn(folder / "m.exr").codes, storedIn(image).codes);
 
   writeStating(folder, R"("spp": 3, "exposure": 1)");
   ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
@@ -178,7 +164,7 @@ TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
   const std::string scene = writeStating(folder, R"("background": "transparent")");
   const Outcome refused = picture(scene, folder / "a.jpg");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("has no alpha"), std::string::npos) << refused.err;
+  EXPECT_TRUE(hasText(refused.err, "has no alpha"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
 
   ASSERT_EQ(picture(scene, folder / "a.exr").status, 0);
@@ -189,8 +175,7 @@ TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
 TEST(SceneOptions, AreNotMeasured) {
   const TemporaryFolder folder;
   const std::string scene = writeStating(folder, R"("spp": 4)");
-  const auto run = nlohmann::json::parse(
-      runWhit({"bench", scene, "--frames", "1", "--json", "-", "--quiet"}).out)["runs"][0];
+  const auto run = jsonOf({"bench", scene, "--frames", "1", "--quiet"})["runs"][0];
   EXPECT_EQ(run["rays"]["primary"], 48 * 32) << run.dump();
 }
 

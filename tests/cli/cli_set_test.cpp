@@ -3,10 +3,11 @@
 #include <sys/stat.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "io/image/image_file.h"
-#include "run_program.h"
+#include "command_json.h"
+#include "has_text.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -14,30 +15,23 @@ namespace {
 // Turns the mirror off, so that the reports on the scene change.
 constexpr char kMatte[] = "/materials/mirror/mirror=0";
 
-TEST(Set, RendersWhatTheEditedFileRenders) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  std::string text = readFile(tiny);
+class Set : public TinySceneTest {};
+
+TEST_F(Set, RendersWhatTheEditedFileRenders) {
+  std::string text = readFile(tiny_);
   text.replace(text.find("[60, 60, 60]"), 12, "[1, 2.5, 60]");
   text.replace(text.find("\"diffuse\": 0.5"), 14, "\"diffuse\": [0.1, 0.2, 0.3]");
-  std::ofstream(folder / "edited.json") << text;
+  std::ofstream(folder_ / "edited.json") << text;
 
-  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "a.png", "--quiet", "--set",
-                     "/lights/0/intensity=[1, 2.5, 60]",
-                     "--set=/materials/floor/diffuse=[0.1, 0.2, 0.3]"})
-                .status,
-            0);
-  ASSERT_EQ(runWhit({"render", folder / "edited.json", "-o", folder / "b.png", "--quiet"}).status,
-            0);
+  succeed({"render", tiny_, "-o", folder_ / "a.png", "--quiet", "--set",
+           "/lights/0/intensity=[1, 2.5, 60]", "--set=/materials/floor/diffuse=[0.1, 0.2, 0.3]"});
+  succeed({"render", folder_ / "edited.json", "-o", folder_ / "b.png", "--quiet"});
 
-  Warnings warnings;
-  EXPECT_EQ(readRawImage(folder / "a.png", ImageLimits(), warnings).codes,
-            readRawImage(folder / "b.png", ImageLimits(), warnings).codes);
+  EXPECT_EQ(storedIn(folder_ / "a.png").codes, storedIn(folder_ / "b.png").codes);
 }
 
-TEST(Set, ImagesTellOfItAndResumingKnows) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder), image = folder / "a.exr";
+TEST_F(Set, ImagesTellOfItAndResumingKnows) {
+  const std::string image = folder_ / "a.exr";
   const auto number = [&] {
     struct stat facts {};
     EXPECT_EQ(stat(image.c_str(), &facts), 0);
@@ -45,61 +39,43 @@ TEST(Set, ImagesTellOfItAndResumingKnows) {
   };
 
   const auto render = [&](const char* size) {
-    EXPECT_EQ(runWhit({"render", tiny, "-o", image, "--quiet", "--resume", "--set", kMatte, "--set",
-                       size})
-                  .status,
-              0);
+    succeed({"render", tiny_, "-o", image, "--quiet", "--resume", "--set", kMatte, "--set", size});
     return number();
   };
 
   const auto first = render("/size=[40, 20]");
-  std::map<std::string, std::string> said;
-  for (const auto& [name, text] : readExrMetadata(image)) said[name] = text;
-  EXPECT_EQ(said["set"], std::string(kMatte) + "\n/size=[40, 20]");
+  EXPECT_EQ(metadataOf(image).at("set"), std::string(kMatte) + "\n/size=[40, 20]");
 
   EXPECT_EQ(render("/size=[40, 20]"), first) << "traced again";
-  std::ofstream(folder / "keep") << "so that the number of the replaced file is not given again";
+  std::ofstream(folder_ / "keep") << "so that the number of the replaced file is not given again";
   EXPECT_NE(render("/size=[20, 40]"), first) << "not traced again";
 }
 
-TEST(Set, EveryCommandTakesIt) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const auto jsonOf = [&](std::vector<std::string> words) {
-    words.insert(words.end(), {"--quiet", "--json", "-", "--set", kMatte});
-    const Outcome outcome = runWhit(words);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return nlohmann::json::parse(outcome.out);
+TEST_F(Set, EveryCommandTakesIt) {
+  const auto matte = [](const Words& words) {
+    return jsonOf(joined(words, {"--quiet", "--set", kMatte}));
   };
 
-  EXPECT_FALSE(jsonOf({"info", tiny})["effects"]["mirror"]["on"].get<bool>());
-  EXPECT_EQ(jsonOf({"bench", tiny, "--frames", "1"})["runs"][0]["rays"]["reflection"], 0);
-  EXPECT_EQ(jsonOf({"compare", tiny})["nonfinite"], 0);
+  EXPECT_FALSE(matte({"info", tiny_})["effects"]["mirror"]["on"].get<bool>());
+  EXPECT_EQ(matte({"bench", tiny_, "--frames", "1"})["runs"][0]["rays"]["reflection"], 0);
+  EXPECT_EQ(matte({"compare", tiny_})["nonfinite"], 0);
 
-  ASSERT_EQ(runWhit({"effects", tiny, "--out", folder / "made", "--frames", "1", "--set", kMatte,
-                     "--quiet"})
-                .status,
-            0);
-  EXPECT_EQ(readFile(folder / "made/effects.csv").find("\nmirror,"), std::string::npos);
+  succeed(
+      {"effects", tiny_, "--out", folder_ / "made", "--frames", "1", "--set", kMatte, "--quiet"});
+  EXPECT_FALSE(hasText(readFile(folder_ / "made/effects.csv"), "\nmirror,"));
 }
 
-TEST(Set, WrongOnesSayWhere) {
-  const TemporaryFolder folder;
-  const std::string tiny = writeTinyScene(folder);
-  const auto expectFailure = [&](const std::string& setting, int status, const std::string& text) {
-    const Outcome outcome = runWhit({"info", tiny, "--set", setting});
-    EXPECT_EQ(outcome.status, status) << setting;
-    EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+TEST_F(Set, WrongOnesSayWhere) {
+  const auto refused = [&](const std::string& setting, int status, const std::string& why) {
+    expectFailure({"info", tiny_, "--set", setting}, status, why);
   };
 
-  expectFailure("/lights/0/intensity", 2, "POINTER=VALUE");
-  expectFailure("/lights/3/intensity=1", 3, "tiny.json#/lights/3");
-  expectFailure("/lights/0/intensitty=1", 3, "tiny.json#/lights/0/intensitty");
-  expectFailure("/lights/0/intensity=true", 3, "tiny.json#/lights/0/intensity");
+  refused("/lights/0/intensity", 2, "POINTER=VALUE");
+  refused("/lights/3/intensity=1", 3, "tiny.json#/lights/3");
+  refused("/lights/0/intensitty=1", 3, "tiny.json#/lights/0/intensitty");
+  refused("/lights/0/intensity=true", 3, "tiny.json#/lights/0/intensity");
 
-  const Outcome images = runWhit({"compare", "a.exr", "b.exr", "--set", kMatte});
-  EXPECT_EQ(images.status, 2);
-  EXPECT_NE(images.err.find("--set"), std::string::npos) << images.err;
+  expectFailure({"compare", "a.exr", "b.exr", "--set", kMatte}, 2, "--set");
 }
 
 }  // namespace

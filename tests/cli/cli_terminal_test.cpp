@@ -6,7 +6,8 @@
 #include <map>
 #include <regex>
 
-#include "io/image/image_file.h"
+#include "has_text.h"
+#include "picture_file.h"
 #include "run_program.h"
 
 namespace whit::cli {
@@ -76,8 +77,7 @@ class TerminalPictures : public testing::Test {
     return runOnTerminal(words, folder_, variables);
   }
   std::vector<std::uint8_t> codesOf(const std::string& file) {
-    Warnings warnings;
-    return readRawImage(folder_ / file, ImageLimits(), warnings).codes;
+    return storedIn(folder_ / file).codes;
   }
   // The data, decoded, is a PNG with the pixels of tiny.png.
   void expectThePicture(const std::string& data) {
@@ -111,7 +111,7 @@ TEST_F(TerminalPictures, ByTheProtocolOfKitty) {
     EXPECT_EQ(heads.front(), "a=T,f=100,q=2,c=25,m=1");
     EXPECT_EQ(heads.back(), "m=0");
     expectThePicture(data);
-    EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(hasText(outcome.err, "wrote tiny.png"));
   }
 }
 
@@ -131,10 +131,7 @@ TEST_F(TerminalPictures, AsHalfBlocksInColor) {
   const Outcome outcome = render({{"TERM", "xterm"}, {"COLORTERM", "truecolor"}});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 
-  const RawImage image = [&] {
-    Warnings warnings;
-    return readRawImage(folder_ / "tiny.png", ImageLimits(), warnings);
-  }();
+  const RawImage image = storedIn(folder_ / "tiny.png");
   const std::size_t channels = image.codes.size() / (48 * 32);
 
   // A half block shows two rows of pixels, the upper one in its own color.
@@ -188,7 +185,7 @@ TEST_F(TerminalPictures, AskedForByADash) {
 
   const Outcome refused = render({{"TERM", "xterm"}}, {"-o", "-"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("shows no pictures"), std::string::npos) << refused.err;
+  EXPECT_TRUE(hasText(refused.err, "shows no pictures"));
 }
 
 }  // namespace

@@ -2,19 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "command_json.h"
 #include "core/option_table.h"
+#include "has_text.h"
 #include "io/files.h"
-#include "io/image/image_file.h"
 #include "output/film_pipe.h"
-#include "run_program.h"
+#include "picture_file.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 // Writes a program named ffmpeg, which is found before all others.
 void writeProgram(const TemporaryFolder& folder, const std::string& text) {
@@ -22,11 +22,8 @@ void writeProgram(const TemporaryFolder& folder, const std::string& text) {
   fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
 }
 
-Outcome turn(const std::string& scene, const std::vector<std::string>& more,
-             const std::string& path = "") {
-  std::vector<std::string> words{"turntable", scene, "--quiet"};
-  words.insert(words.end(), more.begin(), more.end());
-  return runWhit(words, [&] {
+Outcome turn(const std::string& scene, const Words& more, const std::string& path = "") {
+  return runWhit(joined({"turntable", scene, "--quiet"}, more), [&] {
     if (!path.empty()) setenv("PATH", path.c_str(), 1);
   });
 }
@@ -38,8 +35,14 @@ std::string cubeObj(const TemporaryFolder& folder) {
   return folder / "cube.obj";
 }
 
-std::vector<std::string> namesIn(const TemporaryFolder& folder) {
-  std::vector<std::string> names;
+Vec3f eyeOf(const std::string& file) {
+  Vec3f eye;
+  parseValue(OptionSpec{}, metadataOf(file).at("eye"), eye);
+  return eye;
+}
+
+Words namesIn(const TemporaryFolder& folder) {
+  Words names;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
     names.push_back(entry.path().filename().string());
   }
@@ -93,15 +96,7 @@ TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
       turn(cubeObj(folder), {"-o", folder / "f#.exr", "--count", "4", "--size", "48x48"}).status,
       0);
 
-  const auto eye = [&](int k) {
-    const std::string file = folder / ("f" + std::to_string(k) + ".exr");
-    for (const auto& [name, text] : readExrMetadata(file)) {
-      Vec3f v;
-      if (name == "eye") parseValue(OptionSpec{}, text, v);
-      if (name == "eye") return v;
-    }
-    return Vec3f();
-  };
+  const auto eye = [&](int k) { return eyeOf(folder / ("f" + std::to_string(k) + ".exr")); };
 
   const Vec3f first = eye(0);
   EXPECT_GT(length(Vec3d(first)), 2);
@@ -117,8 +112,8 @@ TEST(TurntableCommand, WithoutFfmpegThereIsNoFilm) {
   const Outcome outcome =
       turn(cubeObj(folder), {"-o", folder / "film.mp4", "--count", "3"}, "/nonexistent");
   EXPECT_EQ(outcome.status, 4) << outcome.err;
-  EXPECT_NE(outcome.err.find("ffmpeg"), std::string::npos) << outcome.err;
-  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  EXPECT_TRUE(hasText(outcome.err, "ffmpeg"));
+  EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
 }
 
 TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
@@ -130,8 +125,8 @@ TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
         turn(cube, {"-o", folder / "film.mp4", "--count", "40", "--size", "320x200"},
              programs.path().string() + ":/usr/bin:/bin");
     EXPECT_EQ(outcome.status, 4) << outcome.err;
-    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+    EXPECT_TRUE(hasText(outcome.err, said));
+    EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
   };
   expectFailure("echo no such codec >&2; exit 1", "no such codec");  // ffmpeg ends at once
   expectFailure("cat >/dev/null; echo the disk is full >&2; exit 3", "the disk is full");
@@ -152,18 +147,17 @@ TEST(TurntableCommand, AnInterruptionLeavesNothing) {
   ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));
   kill(child, SIGTERM);
   EXPECT_EQ(waitFor(child), 130);
-  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
 }
 
 TEST(TurntableCommand, WrongUsageIsSaid) {
   const TemporaryFolder folder;
   const std::string cube = cubeObj(folder);
-  const auto refuse = [&](int status, const std::string& why,
-                          const std::vector<std::string>& words) {
+  const auto refuse = [&](int status, const std::string& why, const Words& words) {
     const Outcome outcome = turn(cube, words);
     EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
-    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+    EXPECT_TRUE(hasText(outcome.err, why));
+    EXPECT_EQ(namesIn(folder), (Words{"cube.obj"}));
   };
 
   refuse(2, "expected a file to write", {});
@@ -183,25 +177,21 @@ TEST(Film, FramesAreThoseOfTheirOwnFiles) {
   // Writes the raw frames, and what it was called with.
   const std::string called = programs / "words";
   writeProgram(programs, "for last; do :; done; echo \"$*\" >" + called + "; cat >\"$last\"");
-  const auto render = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", tiny, "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    return runWhit(
-        words, [&] { setenv("PATH", (programs.path().string() + ":/usr/bin:/bin").c_str(), 1); });
+  const auto render = [&](const Words& more) {
+    return runWhit(joined({"render", tiny, "--quiet"}, more), [&] {
+      setenv("PATH", (programs.path().string() + ":/usr/bin:/bin").c_str(), 1);
+    });
   };
 
   const Outcome outcome =
       render({"--frames", "1..3", "--fps", "4", "-o", film, "-o", folder / "f#.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(readFile(called).find("-pix_fmt rgb0 -s 48x32 -r 4 -i -"), std::string::npos)
-      << readFile(called);
+  EXPECT_TRUE(hasText(readFile(called), "-pix_fmt rgb0 -s 48x32 -r 4 -i -"));
 
   // ffmpeg gets four bytes a pixel, the last of which is unused.
   std::string frames;
   for (const std::string name : {"f1.png", "f2.png", "f3.png"}) {
-    Warnings warnings;
-    const std::vector<std::uint8_t> codes =
-        readRawImage(folder / name, ImageLimits(), warnings).codes;
+    const std::vector<std::uint8_t> codes = storedIn(folder / name).codes;
     for (std::size_t i = 0; i < codes.size(); ++i) {
       frames += static_cast<char>(codes[i]);
       if (i % 3 == 2) frames += '\xff';
@@ -223,11 +213,7 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   EXPECT_EQ(json["size"], (Json{48, 32}));
   EXPECT_EQ(json["files"].size(), 2u);
 
-  const ImageMetadata metadata = readExrMetadata(folder / "a1.exr");
-  const auto eye = std::ranges::find(metadata, "eye", &ImageMetadata::value_type::first);
-  ASSERT_NE(eye, metadata.end());
-  Vec3f v;
-  parseValue(OptionSpec{}, eye->second, v);
+  const Vec3f v = eyeOf(folder / "a1.exr");
   EXPECT_NEAR(v.x, -6, 1e-5);
   EXPECT_NEAR(v.y, 2, 1e-6);
 }

@@ -1,5 +1,6 @@
 // The cost of effects from made-up frames, whose numbers are known.
 #include "cli/effects_report.h"
+#include "has_text.h"
 
 #include <gtest/gtest.h>
 
@@ -68,20 +69,18 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   const std::string text = ratioText(first, second);
   EXPECT_TRUE(text.starts_with("made-up, effects all over effects auto, medians of 5 turns\n"))
       << text;
-  EXPECT_NE(text.find("1.500  (15.00 over 10.00 ms)"), std::string::npos) << text;
-  EXPECT_NE(text.find("1.500  (9.00 over 6.00 ms)"), std::string::npos) << text;
+  EXPECT_TRUE(hasText(text, "1.500  (15.00 over 10.00 ms)"));
+  EXPECT_TRUE(hasText(text, "1.500  (9.00 over 6.00 ms)"));
 }
 
 TEST(EffectsTable, HasARowForEachStep) {
   const std::string table = effectsTable(effectsJson(madeUpSteps(), {}));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 5);
   // The medians of a turn are 10 ms and 5 ms more; the last step alone takes 15 ms.
-  EXPECT_NE(table.find("come to 15.00 ms; the last frame takes 15.00 ms."), std::string::npos)
-      << table;
-  EXPECT_NE(table.find("+ mirror               15.00      +5.00  +5.00 to +15.00              "
-                       "+3.00       +3000"),
-            std::string::npos)
-      << table;
+  EXPECT_TRUE(hasText(table, "come to 15.00 ms; the last frame takes 15.00 ms."));
+  EXPECT_TRUE(hasText(table,
+                      "+ mirror               15.00      +5.00  +5.00 to +15.00              "
+                      "+3.00       +3000"));
 }
 
 // Five turns tell no more than the least and the largest difference.
@@ -95,13 +94,13 @@ TEST(EffectsRows, SayWhatIsNoise) {
   EXPECT_EQ(rows[2]["added_ms_low"], -1);
   EXPECT_EQ(rows[2]["added_ms_high"], 1);
   const std::string table = effectsTable(effectsJson(steps, {}));
-  EXPECT_NE(table.find("~    +0.50  -1.00 to +1.00 "), std::string::npos) << table;
+  EXPECT_TRUE(hasText(table, "~    +0.50  -1.00 to +1.00 "));
 
   // Of a single turn nothing is known.
   for (EffectStep& step : steps) step.run.frames.resize(1);
   rows = effectsRows(steps);
   EXPECT_TRUE(rows[1]["added_ms_low"].is_null());
-  EXPECT_NE(effectsTable(effectsJson(steps, {})).find("~    +5.00  unknown "), std::string::npos);
+  EXPECT_TRUE(hasText(effectsTable(effectsJson(steps, {})), "~    +5.00  unknown "));
 }
 
 // The ranks of the sign test: of 20 values the fifth from each end, whatever their order.

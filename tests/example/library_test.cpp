@@ -11,11 +11,13 @@
 #include <functional>
 
 #include "core/option_table.h"
+#include "has_text.h"
 #include "inspect/reference_frame.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
+#include "library_scenes.h"
 #include "render/renderer.h"
 
 namespace whit::api {
@@ -29,20 +31,12 @@ const Scene& whittedScene() {
 }
 
 Renderer smallRenderer() {
-  Renderer renderer(whittedScene());
-  renderer.set("size", "40x24").set("threads", "1");
+  Renderer renderer = smallRenderer(whittedScene());
+  renderer.set("threads", "1");
   return renderer;
 }
 
-int statusOf(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()), "");
-    return error.status();
-  }
-  return 0;
-}
+int statusOf(const std::function<void()>& body) { return errorOf(body).status(); }
 
 bool sameBits(const whit::Image& expected, const Image& image) {
   return image.rgb().size() == 3 * expected.pixels.size() &&
@@ -187,10 +181,10 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   }
   EXPECT_GT(whittedScene().materials().size(), 0u);
 
-  const std::string path = testing::TempDir() + "whit-library-channels.exr";
+  const TemporaryFolder folder;
+  const std::string path = folder / "channels.exr";
   image.write(path);
   const std::vector<ImageLayer> layers = readLayers(path, ImageLimits());
-  std::filesystem::remove(path);
   ASSERT_EQ(layers.size(), 3u);
   EXPECT_EQ(layers[0].name, "depth.Z");
   EXPECT_EQ(layers[0].floats()[7], depth.values[14]);
@@ -203,7 +197,7 @@ TEST(Library, ImagesAreValues) {
   Image second = first;
   renderer.set("depth", "0").render(second);
   EXPECT_NE(first.rgb().data(), second.rgb().data());
-  EXPECT_FALSE(std::equal(first.rgb().begin(), first.rgb().end(), second.rgb().begin()));
+  EXPECT_FALSE(samePictures(first, second));
 
   const float* const pixels = second.rgb().data();
   const Image third = std::move(second);
@@ -228,14 +222,10 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
   const Scene scene2 = std::move(scene);
   const SceneBuilder builder2 = std::move(builder);
 
-  const auto refuses = [](const auto& use) {
-    try {
-      use();
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("after a move"), std::string::npos) << error.what();
-      return error.status();
-    }
-    return 0;
+  const auto refuses = [](const std::function<void()>& use) {
+    const Error error = errorOf(use);
+    EXPECT_TRUE(hasText(error.what(), "after a move"));
+    return error.status();
   };
 
   Image image;
@@ -297,17 +287,12 @@ TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
 }
 
 TEST(Library, ScenesThatAreNotGoodSayWhere) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("whit-library-" + std::to_string(::getpid()) + ".json");
+  const TemporaryFolder folder;
+  const std::string file = folder / "bad.json";
   std::ofstream(file) << R"({"whit": 1, "size": ["wide", 3]})";
-  try {
-    loadScene(file.string());
-    ADD_FAILURE() << "loaded";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), 3);
-    EXPECT_NE(std::string(error.what()).find("#/size"), std::string::npos) << error.what();
-  }
-  std::filesystem::remove(file);
+  const Error error = errorOf([&] { loadScene(file); });
+  EXPECT_EQ(error.status(), 3);
+  EXPECT_TRUE(hasText(error.what(), "#/size"));
 }
 
 TEST(Library, ScenesMoveAndComeBack) {
@@ -318,12 +303,7 @@ TEST(Library, ScenesMoveAndComeBack) {
   EXPECT_EQ(scene.animations()[0].name, "scene");
   EXPECT_EQ(scene.animations()[0].seconds, 10);
 
-  const auto small = [](const Scene& of) {
-    Renderer renderer(of);
-    renderer.set("size", "40x24").set("threads", "1");
-    return renderer;
-  };
-  Renderer renderer = small(scene), still = small(scene);
+  Renderer renderer = smallRenderer(scene), still = smallRenderer(scene);
   const Image start = renderer.render();
 
   for (const double seconds : {6.5, 2.5}) {
@@ -343,9 +323,7 @@ TEST(Library, ScenesMoveAndComeBack) {
     EXPECT_TRUE(sameBits(film.image, renderer.setTime(seconds).render())) << seconds;
   }
 
-  const auto same = [&](const Image& image) {
-    return std::equal(start.rgb().begin(), start.rgb().end(), image.rgb().begin());
-  };
+  const auto same = [&](const Image& image) { return samePictures(start, image); };
   EXPECT_FALSE(same(renderer.render()));
   EXPECT_TRUE(same(still.render())) << "another renderer's scene has moved";
   EXPECT_TRUE(same(renderer.setTime(0).render()));
@@ -362,40 +340,31 @@ std::string writeLoose(const std::filesystem::path& file, const std::string& pla
 
 // Objects that setTransform() places give the picture of a file that states the same places.
 TEST(Library, ThingsAreMovedByHand) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string prefix = "whit-loose-" + std::to_string(getpid());
-  const std::string loose = writeLoose(folder / (prefix + "-a.json"), "");
+  const TemporaryFolder folder;
+  const std::string loose = writeLoose(folder / "loose.json", "");
   const std::string placed = writeLoose(
-      folder / (prefix + "-b.json"),
+      folder / "placed.json",
       ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
 
   LoadOptions moving;
   moving.movable = {"/cameras/c", "/lights/0", "/scene/1/group/0"};
-  const auto small = [](const Scene& of) {
-    Renderer renderer(of);
-    renderer.set("size", "40x24").set("threads", "1");
-    return renderer;
-  };
-  const auto same = [](const Image& a, const Image& b) {
-    return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin());
-  };
 
-  Renderer renderer = small(loadScene(loose, moving));
+  Renderer renderer = smallRenderer(loadScene(loose, moving));
   const Image rest = renderer.render();
   constexpr std::array<double, 12> kPlace{2, 0, 0, -1, 0, 2, 0, 0.5, 0, 0, 2, 0};
   for (const std::string& pointer : moving.movable) renderer.setTransform(pointer, kPlace);
   const Image there = renderer.render();
-  EXPECT_FALSE(same(rest, there));
+  EXPECT_FALSE(samePictures(rest, there));
 
   moving.moves = true;
   moving.movable = {};
-  EXPECT_TRUE(same(small(loadScene(placed, moving)).render(), there));
+  EXPECT_TRUE(samePictures(smallRenderer(loadScene(placed, moving)).render(), there));
 
   constexpr std::array<double, 12> kRest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   for (const char* pointer : {"/lights/0", "/scene/1/group/0", "/cameras/c"}) {
     renderer.setTransform(pointer, kRest);
   }
-  EXPECT_TRUE(same(rest, renderer.render()));
+  EXPECT_TRUE(samePictures(rest, renderer.render()));
 
   EXPECT_EQ(statusOf([&] { renderer.setTransform("/scene/0", kRest); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.setTransform("", kRest); }), 2);
@@ -413,9 +382,6 @@ TEST(Library, ThingsAreMovedByHand) {
     moving.movable = {wrong};
     EXPECT_EQ(statusOf([&] { loadScene(placed, moving); }), 2) << wrong;
   }
-
-  std::filesystem::remove(loose);
-  std::filesystem::remove(placed);
 }
 
 TEST(Library, WhatDoesNotMoveHasNoTime) {

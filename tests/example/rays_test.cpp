@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "exact_rays.h"
+#include "has_text.h"
 #include "library/whit.h"
 #include "library_scenes.h"
 #include "pi.h"
@@ -551,7 +552,7 @@ TEST(RayQueries, SeeFromSurfaceToSurface) {
 // A model that was moved to the origin is asked, and answers, in coordinates of its file.
 TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   const TemporaryFolder folder;
-  const std::string model = folder.file("far.obj");
+  const std::string model = folder / "far.obj";
   std::ofstream(model) << "v 4000000.1 500000.2 10\nv 4000001.1 500000.2 10\n"
                           "v 4000000.1 500001.2 10\nf 1 2 3\n";
   Renderer renderer(loadScene(model, {.settings = {"/up=\"y\""}}));
@@ -580,7 +581,7 @@ TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   // The camera of such a scene comes back.
   const Image first = renderer.set("size", "40x24").render();
   EXPECT_TRUE(samePictures(renderer.lookThrough(renderer.scene().camera()).render(), first));
-  EXPECT_NE(renderer.scene().camera().find("\"at\":[400000"), std::string::npos);
+  EXPECT_TRUE(hasText(renderer.scene().camera(), "\"at\":[400000"));
 }
 
 }  // namespace

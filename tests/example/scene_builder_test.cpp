@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "has_text.h"
 #include "io/image/image_file.h"
 #include "library_scenes.h"
 
@@ -49,7 +50,7 @@ SceneBuilder sheetBuilder() {
 
 // Writes the same scene as a scene file, a model and an image.
 std::string writeSheets(const TemporaryFolder& folder) {
-  std::ofstream(folder.file("sheet.obj"))
+  std::ofstream(folder / "sheet.obj")
       << "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0.5 1\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\ns off\n"
       << "f 1/1 3/3 2/2\nf 1/1 4/4 3/3\n";
 
@@ -58,9 +59,9 @@ std::string writeSheets(const TemporaryFolder& folder) {
   for (std::size_t i = 0; i < kCodes.size(); i += 3) {
     image.rgba.insert(image.rgba.end(), {kCodes[i], kCodes[i + 1], kCodes[i + 2], 255});
   }
-  writePng(folder.file("dots.png"), image, {});
+  writePng(folder / "dots.png", image, {});
 
-  std::ofstream(folder.file("sheets.json")) << R"({"whit": 1,
+  std::ofstream(folder / "sheets.json") << R"({"whit": 1,
     "cameras": {"front": {"eye": [0.5, 2, 4], "at": [0, 0, 0]}},
     "lights": [{"position": [1, 4, 2], "intensity": 30}],
     "sky": {"color": [0.1, 0.2, 0.3]}, "ambient": {"fromSky": 0.5},
@@ -69,7 +70,7 @@ std::string writeSheets(const TemporaryFolder& folder) {
       {"model": "sheet.obj", "materials": {"*": {"diffuse": [0.75, 0.5, 0.25], "diffuseMap": "dots"}}},
       {"model": "sheet.obj", "materials": {"*": {"diffuse": [0.75, 0.5, 0.25], "diffuseMap": "dots"}},
        "transform": {"matrix": [0.5, 0, 0, 0, 0, 0.5, 0, 1, 0, 0, 0.5, 0]}}]})";
-  return folder.file("sheets.json");
+  return folder / "sheets.json";
 }
 
 TEST(SceneBuilder, MakesThePictureOfFiles) {
@@ -125,7 +126,7 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   builder.addCamera("front", camera);
 
   Renderer renderer = smallRenderer(builder.build());
-  EXPECT_NE(renderer.scene().camera().find("equisolid"), std::string::npos);
+  EXPECT_TRUE(hasText(renderer.scene().camera(), "equisolid"));
   const Image round = renderer.render();
   EXPECT_FALSE(samePictures(round, plain));
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "has_text.h"
 #include "library_scenes.h"
 
 namespace whit::api {
@@ -79,7 +80,7 @@ TEST(UpdateMesh, RefusesWhatIsNoMesh) {
 
   const Error unknown = errorOf([&] { renderer.updateMesh("shet", sheet(kBentCorners)); });
   EXPECT_EQ(unknown.status(), 2);
-  EXPECT_NE(std::string(unknown.what()).find("did you mean 'sheet'?"), std::string::npos);
+  EXPECT_TRUE(hasText(std::string(unknown.what()), "did you mean 'sheet'?"));
 
   Corners infinite = kBentCorners;
   infinite[4] = std::numeric_limits<float>::infinity();

@@ -285,21 +285,21 @@ void putExrs() {
 
 void putModels() {
   GltfBuilder gltf;
-  const int positions = gltf.positions(kTriangleXyz), uvs = gltf.uvs({0, 0, 1, 0, 0, 1});
-  const int indices = gltf.indices({0, 1, 2});
-  const int sparse = gltf.accessor(-1, 5126, "VEC3", 3,
-                                   ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" +
-                                       std::to_string(gltf.view(std::string(1, '\1'))) +
-                                       ",\"componentType\":5121},\"values\":{\"bufferView\":0}}");
-  const int small = gltf.accessor(gltf.view(std::string("\0\1\2\0\3\4\5\0\6\7\1\0", 12), 4), 5121,
-                                  "VEC3", 3, ",\"normalized\":true");
+  const std::string positions = gltf.positions(kTriangleXyz), uvs = gltf.uvs({0, 0, 1, 0, 0, 1});
+  const std::string indices = gltf.indices({0, 1, 2});
+  const std::string sparse =
+      gltf.accessor(-1, 5126, "VEC3", 3,
+                    ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" +
+                        std::to_string(gltf.view(std::string(1, '\1'))) +
+                        ",\"componentType\":5121},\"values\":{\"bufferView\":0}}");
+  const std::string small = gltf.accessor(gltf.view(std::string("\0\1\2\0\3\4\5\0\6\7\1\0", 12), 4),
+                                          5121, "VEC3", 3, ",\"normalized\":true");
 
   const Bytes image = png(1, 1, 8, 6, {0, 200, 100, 50, 128});
   const int view = gltf.view(std::string(image.begin(), image.end()));
-  const auto primitive = [&](int p, const std::string& rest) {
-    return "{\"attributes\":{\"POSITION\":" + std::to_string(p) +
-           ",\"NORMAL\":" + std::to_string(p) + ",\"TEXCOORD_0\":" + std::to_string(uvs) +
-           "},\"indices\":" + std::to_string(indices) + ",\"material\":0" + rest + "}";
+  const auto textured = [&](const std::string& xyz, const std::string& rest = "") {
+    return primitive(xyz, ",\"NORMAL\":" + xyz + ",\"TEXCOORD_0\":" + uvs,
+                     ",\"indices\":" + indices + ",\"material\":0" + rest);
   };
 
   const std::string members =
@@ -311,8 +311,8 @@ void putModels() {
       "{\"scale\":[2,2]}}},\"metallicRoughnessTexture\":{\"index\":1}},\"normalTexture\":"
       "{\"index\":1,\"scale\":0.5},\"emissiveTexture\":{\"index\":0},\"emissiveFactor\":[1,1,1]}],"
       "\"meshes\":[{\"primitives\":[" +
-      primitive(positions, "") + "," + primitive(sparse, ",\"mode\":5") + "," +
-      primitive(small, ",\"mode\":6") +
+      textured(positions) + "," + textured(sparse, ",\"mode\":5") + "," +
+      textured(small, ",\"mode\":6") +
       "]}],\"nodes\":[{\"mesh\":0,\"children\":[1]},{\"mesh\":0,\"scale\":[-1,1,1],"
       "\"rotation\":[0,0,0,1],\"translation\":[2,0,0]}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0";
   put("gltf/all.glb", gltf.glb(members));

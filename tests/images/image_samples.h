@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <zlib.h>
 
 #include <array>
@@ -15,6 +14,7 @@
 
 #include "core/error.h"
 #include "io/image/image_file.h"
+#include "temporary_folder.h"
 
 namespace whit {
 
@@ -34,13 +34,6 @@ ExitStatus statusOf(Run&& run) {
 // A new folder for each test, removed afterwards.
 class ImageTest : public testing::Test {
  protected:
-  ImageTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "whit-images-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~ImageTest() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   std::string save(const std::string& name, const Bytes& bytes) const {
     // Some file systems wait for the disk when a file that exists is written anew.
@@ -70,7 +63,8 @@ class ImageTest : public testing::Test {
         std::distance(std::filesystem::directory_iterator(folder_), {}));
   }
 
-  std::string folder_;
+  const TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path().string();
   ImageLimits limits_;
   Warnings warnings_;
 };

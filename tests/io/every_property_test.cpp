@@ -282,15 +282,15 @@ TEST_F(EveryProperty, OfGltf) {
   // A fourth vertex lies behind the triangle's, for an accessor that begins later.
   std::vector<float> corners(kTriangleXyz);
   corners.insert(corners.end(), {3, 4, 5});
-  const std::string position =
-      std::to_string(b.accessor(b.view(bytesOf<float>(corners)), 5126, "VEC3", 3));
-  const std::string uv = std::to_string(b.uvs({0, 0, 1, 0, 0, 1}));
-  const std::string second = std::to_string(b.uvs({0.5f, 0, 1, 0.25f, 0, 0.75f}));
+  const std::string position = b.accessor(b.view(bytesOf<float>(corners)), 5126, "VEC3", 3);
+  const std::string uv = b.uvs({0, 0, 1, 0, 0, 1});
+  const std::string second = b.uvs({0.5f, 0, 1, 0.25f, 0, 0.75f});
+  // These are put in as numbers.
   const int color =
-      b.accessor(b.view(bytesOf<float>({1, 0, 0, 0, 1, 0, 0, 0, 1})), 5126, "VEC3", 3);
-  const int normal =
-      b.accessor(b.view(bytesOf<float>({0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1})), 5126, "VEC3", 3);
-  const int indices = b.indices({2, 1, 0});
+      std::stoi(b.accessor(b.view(bytesOf<float>({1, 0, 0, 0, 1, 0, 0, 0, 1})), 5126, "VEC3", 3));
+  const int normal = std::stoi(
+      b.accessor(b.view(bytesOf<float>({0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1})), 5126, "VEC3", 3));
+  const int indices = std::stoi(b.indices({2, 1, 0}));
 
   const std::string slot = "{\"index\":0}";
   // The file has one element of each kind, so that each pointer below leads to an existing parent.

@@ -70,7 +70,7 @@ TEST_F(FarModels, PlyKeepsItsEdges) {
 
 TEST_F(FarModels, NodesOfGltfKeepEdgesCamerasAndLights) {
   GltfBuilder b;
-  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string position = b.positions(kTriangleXyz);
   const SceneDescription scene = loadText(
       b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + position +
              "}}]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1}}],"
@@ -128,7 +128,7 @@ TEST_F(FarModels, BentMeshesOfGltfKeepTheirEdges) {
 TEST_F(FarModels, MovingNodesOfGltfAreInCoordinatesOfTheFile) {
   constexpr double kRounding = 5e-7;  // of coordinates below 8
   GltfBuilder b;
-  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string position = b.positions(kTriangleXyz);
   const std::string text =
       b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + position +
              "}}]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1}}],"

@@ -35,7 +35,7 @@ constexpr double kPositionStep = 1.0 / (1 << 14), kNormalStep = 1.0 / 100, kColo
 // triangles that face +z, and the colors (x, y, 1).
 void expectGrid(const SceneDescription& scene) {
   ASSERT_EQ(scene.objects.size(), 1u);
-  const Mesh& mesh = scene.objects[0].meshes.at(0);
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.positions.size(), 9u);
   ASSERT_EQ(mesh.triangles.size(), 8u);
 
@@ -68,7 +68,7 @@ TEST_F(GltfCompressed, DracoIsDecoded) {
   EXPECT_EQ(kinds(), "");
   expectGrid(scene);
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   // Coordinates are quantized to 12 bits, and v points up in a mesh.
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_NEAR(mesh.uvs[i].x, mesh.positions[i].x, 1.0 / (1 << 12));
@@ -247,7 +247,7 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
     expectNear(cornerOf(scene, instance, 0, 2), {0, x, 0}, 1e-3);
   }
 
-  expectNear(Vec3d(scene.objects.at(0).meshes.at(0).normals.at(0)), {0, 0, 1}, 1e-3);
+  expectNear(Vec3d(meshOf(scene).normals.at(0)), {0, 0, 1}, 1e-3);
   EXPECT_EQ(errorOfText(replaced(text, "\"buffer\":0", "\"buffer\":1")),
             "3 m.gltf#/buffers/1: expected a buffer with data, found none");
 

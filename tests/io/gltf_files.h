@@ -55,25 +55,26 @@ class GltfBuilder {
     return viewCount_++;
   }
 
-  // `rest` has further members and begins with a comma. A negative `view` means that there is none.
-  int accessor(int view, int componentType, const std::string& type, std::size_t count,
-               const std::string& rest = "") {
+  // Returns the number of the accessor, as it is written into the file. `rest` has further members
+  // and begins with a comma. A negative `view` means that there is none.
+  std::string accessor(int view, int componentType, const std::string& type, std::size_t count,
+                       const std::string& rest = "") {
     accessors_ += std::string(accessors_.empty() ? "" : ",") +
                   (view >= 0 ? "{\"bufferView\":" + std::to_string(view) + "," : "{") +
                   "\"componentType\":" + std::to_string(componentType) + ",\"type\":\"" + type +
                   "\",\"count\":" + std::to_string(count) + rest + "}";
-    return accessorCount_++;
+    return std::to_string(accessorCount_++);
   }
 
-  int positions(const std::vector<float>& xyz) {
+  std::string positions(const std::vector<float>& xyz) {
     return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3, boundsOf(xyz));
   }
 
-  int uvs(const std::vector<float>& uv) {
+  std::string uvs(const std::vector<float>& uv) {
     return accessor(view(bytesOf(uv)), 5126, "VEC2", uv.size() / 2);
   }
 
-  int indices(const std::vector<std::uint16_t>& i) {
+  std::string indices(const std::vector<std::uint16_t>& i) {
     return accessor(view(bytesOf(i)), 5123, "SCALAR", i.size());
   }
 
@@ -162,6 +163,11 @@ class GltfTest : public SceneFileTest {
  protected:
   SceneDescription loadText(const std::string& text) { return load(save("m.gltf", text)); }
 
+  // Loads a file whose only node shows these primitives.
+  SceneDescription loadShown(const GltfBuilder& b, const std::string& primitives) {
+    return loadText(b.json(oneMesh(primitives)));
+  }
+
   std::string errorOfText(const std::string& text) {
     return errorOf([&] { loadText(text); });
   }
@@ -175,17 +181,26 @@ class GltfTest : public SceneFileTest {
   }
 };
 
-inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = 1e-6) {
+// Positions and matrices are floats of about 1, as exact as this.
+inline constexpr double kPoseRounding = 1e-6;
+
+inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = kPoseRounding) {
   EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
 // The unit triangle in the plane z = 0, seen from +z.
 inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-// Returns a primitive that shows this triangle. `rest` has further members and begins with a comma.
+// Returns a primitive whose positions are an accessor. `attributes` has further attributes and
+// `rest` further members; both begin with a comma.
+inline std::string primitive(const std::string& positions, const std::string& attributes = "",
+                             const std::string& rest = "") {
+  return "{\"attributes\":{\"POSITION\":" + positions + attributes + "}" + rest + "}";
+}
+
+// Returns a primitive that shows this triangle.
 inline std::string triangle(GltfBuilder& b, const std::string& rest = "") {
-  return "{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}" + rest +
-         "}";
+  return primitive(b.positions(kTriangleXyz), "", rest);
 }
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {

@@ -10,15 +10,12 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 std::string triangleText(const std::string& nodes) {
   GltfBuilder b;
-  const std::string position = std::to_string(b.positions(kTriangleXyz));
-  return b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + position +
-                "}}]}]," + nodes);
+  return b.json("\"meshes\":[{\"primitives\":[" + triangle(b) + "]}]," + nodes);
 }
 
 TEST_F(GltfGeometry, TextBinaryAndExternalBuffersAreTheSame) {
   GltfBuilder b;
-  const std::string members =
-      oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}");
+  const std::string members = oneMesh(triangle(b));
 
   std::string external = b.json(members);
   const std::size_t from = external.find("data:"), to = external.find('"', from);
@@ -81,12 +78,11 @@ TEST_F(GltfGeometry, OnlyTheDefaultSceneIsShown) {
 
 TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
   GltfBuilder b;
-  const std::string position =
-      std::to_string(b.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}));
+  const std::string position = b.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0});
   const auto trianglesOf = [&](int mode) {
-    const SceneDescription scene = loadText(b.json(oneMesh(
-        "{\"attributes\":{\"POSITION\":" + position + "},\"mode\":" + std::to_string(mode) + "}")));
-    return scene.objects[0].meshes[0].triangles;
+    const SceneDescription scene =
+        loadShown(b, primitive(position, "", ",\"mode\":" + std::to_string(mode)));
+    return meshOf(scene).triangles;
   };
 
   EXPECT_EQ(trianglesOf(5), (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
@@ -95,10 +91,9 @@ TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
 
 TEST_F(GltfGeometry, PointsAndLinesAreCounted) {
   GltfBuilder b;
-  const std::string attributes =
-      "{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "},\"mode\":";
+  const std::string points = triangle(b, ",\"mode\":0"), strip = triangle(b, ",\"mode\":3");
   const SceneDescription scene =
-      loadText(b.json(oneMesh(attributes + "0}," + attributes + "3}," + attributes + "4}")));
+      loadShown(b, points + "," + strip + "," + triangle(b, ",\"mode\":4"));
   EXPECT_EQ(triangleCount(scene), 1u);
   EXPECT_EQ(warned("points or lines left out"), 2u);
 }
@@ -106,16 +101,15 @@ TEST_F(GltfGeometry, PointsAndLinesAreCounted) {
 // Indices of every type that they can have lead to the same corners.
 TEST_F(GltfGeometry, IndicesOfEveryType) {
   GltfBuilder b;
-  const std::string position = std::to_string(b.positions(kTriangleXyz));
-  const int byType[] = {b.accessor(b.view(bytesOf<std::uint8_t>({2, 0, 1})), 5121, "SCALAR", 3),
-                        b.accessor(b.view(bytesOf<std::uint16_t>({2, 0, 1})), 5123, "SCALAR", 3),
-                        b.accessor(b.view(bytesOf<std::uint32_t>({2, 0, 1})), 5125, "SCALAR", 3)};
+  const std::string position = b.positions(kTriangleXyz);
+  const std::string byType[] = {
+      b.accessor(b.view(bytesOf<std::uint8_t>({2, 0, 1})), 5121, "SCALAR", 3),
+      b.accessor(b.view(bytesOf<std::uint16_t>({2, 0, 1})), 5123, "SCALAR", 3),
+      b.accessor(b.view(bytesOf<std::uint32_t>({2, 0, 1})), 5125, "SCALAR", 3)};
 
-  for (const int indices : byType) {
-    const SceneDescription scene =
-        loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position +
-                                "},\"indices\":" + std::to_string(indices) + "}")));
-    EXPECT_EQ(scene.objects[0].meshes[0].triangles, (std::vector<Triangle>{{2, 0, 1}})) << indices;
+  for (const std::string& indices : byType) {
+    const SceneDescription scene = loadShown(b, primitive(position, "", ",\"indices\":" + indices));
+    EXPECT_EQ(meshOf(scene).triangles, (std::vector<Triangle>{{2, 0, 1}})) << indices;
   }
 }
 
@@ -124,7 +118,7 @@ TEST_F(GltfGeometry, IndicesOfEveryType) {
 TEST_F(GltfGeometry, PositionsOfEveryType) {
   GltfBuilder b;
   struct Case {
-    int accessor;
+    std::string accessor;
     double one;  // what the components that are set come out as
   };
 
@@ -141,9 +135,8 @@ TEST_F(GltfGeometry, PositionsOfEveryType) {
       {b.accessor(u16, 5123, "VEC3", 3), 65535}, {b.accessor(u16, 5123, "VEC3", 3, norm), 1}};
 
   for (const Case& c : cases) {
-    const SceneDescription scene = loadText(
-        b.json("\"extensionsRequired\":[\"KHR_mesh_quantization\"]," +
-               oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(c.accessor) + "}}")));
+    const SceneDescription scene = loadText(b.json(
+        "\"extensionsRequired\":[\"KHR_mesh_quantization\"]," + oneMesh(primitive(c.accessor))));
     expectNear(cornerOf(scene, 0, 0, 1), {c.one, 0, 0});
     expectNear(cornerOf(scene, 0, 0, 2), {0, c.one, 0});
   }
@@ -152,9 +145,8 @@ TEST_F(GltfGeometry, PositionsOfEveryType) {
 TEST_F(GltfGeometry, MostNegativeNormalizedIntegerIsMinusOne) {
   GltfBuilder b;
   const auto view = b.view(bytesOf<std::int8_t>({-128, -127, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}), 4);
-  const auto position = b.accessor(view, 5120, "VEC3", 3, ",\"normalized\":true");
-  const SceneDescription scene =
-      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}")));
+  const std::string position = b.accessor(view, 5120, "VEC3", 3, ",\"normalized\":true");
+  const SceneDescription scene = loadShown(b, primitive(position));
   expectNear(cornerOf(scene, 0, 0, 0), {-1, -1, 0});
 }
 
@@ -162,17 +154,14 @@ TEST_F(GltfGeometry, InterleavedAttributes) {
   GltfBuilder b;
   const int view =
       b.view(bytesOf<float>({0, 0, 0, 0.25f, 0.75f, 1, 0, 0, 0.5f, 1, 0, 1, 0, 0, 0}), 20);
-  const int position = b.accessor(view, 5126, "VEC3", 3);
-  const int uv = b.accessor(view, 5126, "VEC2", 3, ",\"byteOffset\":12");
+  const std::string position = b.accessor(view, 5126, "VEC3", 3);
+  const std::string uv = b.accessor(view, 5126, "VEC2", 3, ",\"byteOffset\":12");
 
-  const SceneDescription scene =
-      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) +
-                              ",\"TEXCOORD_0\":" + std::to_string(uv) + "}}")));
+  const SceneDescription scene = loadShown(b, primitive(position, ",\"TEXCOORD_0\":" + uv));
   expectNear(cornerOf(scene, 0, 0, 2), {0, 1, 0});
 
   // v points down in the file and up in a mesh.
-  EXPECT_EQ(scene.objects[0].meshes[0].uvs,
-            (std::vector<Vec2f>{{0.25f, 0.25f}, {0.5f, 0.0f}, {0.0f, 1.0f}}));
+  EXPECT_EQ(meshOf(scene).uvs, (std::vector<Vec2f>{{0.25f, 0.25f}, {0.5f, 0.0f}, {0.0f, 1.0f}}));
 }
 
 TEST_F(GltfGeometry, SparseAccessorsReplaceSomeElements) {
@@ -184,13 +173,11 @@ TEST_F(GltfGeometry, SparseAccessorsReplaceSomeElements) {
       ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" + std::to_string(which) +
       ",\"componentType\":5123},\"values\":{\"bufferView\":" + std::to_string(values) + "}}";
 
-  const int replaced = b.accessor(dense, 5126, "VEC3", 3, sparse);
-  const int onZeros = b.accessor(-1, 5126, "VEC3", 3, sparse);
+  const std::string replaced = b.accessor(dense, 5126, "VEC3", 3, sparse);
+  const std::string onZeros = b.accessor(-1, 5126, "VEC3", 3, sparse);
 
-  const auto corner = [&](int position, std::size_t i) {
-    return cornerOf(loadText(b.json(oneMesh(
-                        "{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}"))),
-                    0, 0, i);
+  const auto corner = [&](const std::string& position, std::size_t i) {
+    return cornerOf(loadShown(b, primitive(position)), 0, 0, i);
   };
 
   expectNear(corner(replaced, 1), {1, 0, 0});
@@ -201,17 +188,15 @@ TEST_F(GltfGeometry, SparseAccessorsReplaceSomeElements) {
 
 TEST_F(GltfGeometry, NormalsAreTakenOrFlat) {
   GltfBuilder b;
-  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string position = b.positions(kTriangleXyz);
   const auto n = b.view(bytesOf<std::int8_t>({0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0}), 4);
-  const std::string normal = std::to_string(b.accessor(n, 5120, "VEC3", 3, ",\"normalized\":true"));
+  const std::string normal = b.accessor(n, 5120, "VEC3", 3, ",\"normalized\":true");
 
-  const SceneDescription with = loadText(b.json(
-      oneMesh("{\"attributes\":{\"POSITION\":" + position + ",\"NORMAL\":" + normal + "}}")));
-  expectNear(Vec3d(with.objects[0].meshes[0].normals[1]), {0, 1, 0});
+  const SceneDescription with = loadShown(b, primitive(position, ",\"NORMAL\":" + normal));
+  expectNear(Vec3d(meshOf(with).normals[1]), {0, 1, 0});
 
-  const SceneDescription without =
-      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position + "}}")));
-  EXPECT_TRUE(without.objects[0].meshes[0].normals.empty());
+  const SceneDescription without = loadShown(b, primitive(position));
+  EXPECT_TRUE(meshOf(without).normals.empty());
 }
 
 TEST_F(GltfGeometry, CamerasAndPointLights) {
@@ -303,9 +288,8 @@ TEST_F(GltfGeometry, FilesWithoutALightAreGivenTwo) {
 
 TEST_F(GltfGeometry, ScenesPlaceModelsAndOverrideTheirMaterials) {
   GltfBuilder b;
-  save("t.glb", b.glb("\"materials\":[{\"name\":\"wall\"}]," +
-                      oneMesh("{\"material\":0,\"attributes\":{\"POSITION\":" +
-                              std::to_string(b.positions(kTriangleXyz)) + "}}")));
+  save("t.glb",
+       b.glb("\"materials\":[{\"name\":\"wall\"}]," + oneMesh(triangle(b, ",\"material\":0"))));
 
   const SceneDescription scene = loadMembers(
       "\"objects\": {\"t\": [{\"model\": \"t.glb\", \"materials\": {\"wall\": {\"diffuse\": "

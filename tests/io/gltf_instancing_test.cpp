@@ -25,15 +25,14 @@ class GltfInstancing : public GltfTest {
 
 TEST_F(GltfInstancing, CopiesStandWhereTheAttributesSay) {
   GltfBuilder b;
-  const int translation = b.positions({1, 2, 3, -1, 0, 0});
+  const std::string translation = b.positions({1, 2, 3, -1, 0, 0});
   const float half = std::sqrt(0.5f);  // a quarter turn about z
-  const int rotation =
+  const std::string rotation =
       b.accessor(b.view(bytesOf<float>({0, 0, half, half, 0, 0, 0, 1})), 5126, "VEC4", 2);
-  const int scale = b.positions({2, 2, 2, 1, 1, 1});
+  const std::string scale = b.positions({2, 2, 2, 1, 1, 1});
 
-  const SceneDescription scene =
-      loadText(textOf(b, "\"TRANSLATION\":" + std::to_string(translation) + ",\"ROTATION\":" +
-                             std::to_string(rotation) + ",\"SCALE\":" + std::to_string(scale)));
+  const SceneDescription scene = loadText(textOf(
+      b, "\"TRANSLATION\":" + translation + ",\"ROTATION\":" + rotation + ",\"SCALE\":" + scale));
 
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(scene.objects.size(), 1u);
@@ -47,15 +46,15 @@ TEST_F(GltfInstancing, CopiesStandWhereTheAttributesSay) {
 
 TEST_F(GltfInstancing, AttributesMustFitTogether) {
   GltfBuilder b;
-  const std::string two = std::to_string(b.positions({1, 2, 3, -1, 0, 0}));
-  const std::string one = std::to_string(b.positions({1, 1, 1}));
+  const std::string two = b.positions({1, 2, 3, -1, 0, 0});
+  const std::string one = b.positions({1, 1, 1});
   EXPECT_EQ(errorOfText(textOf(b, "\"TRANSLATION\":" + two + ",\"SCALE\":" + one)),
             "3 m.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: expected attributes "
             "of equal lengths, found 1 beside 2");
 
   // A scale of 0 makes a copy flat.
   GltfBuilder flat;
-  const std::string zero = std::to_string(flat.positions({1, 0, 1, 1, 1, 1}));
+  const std::string zero = flat.positions({1, 0, 1, 1, 1, 1});
   EXPECT_EQ(triangleCount(loadText(textOf(flat, "\"SCALE\":" + zero))), 1u);
   EXPECT_EQ(warned("copy of a mesh that is flattened left out"), 1u);
 }

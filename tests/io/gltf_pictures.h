@@ -36,31 +36,29 @@ class GltfMaterials : public GltfTest {
 
   std::string sceneText(const std::vector<Square>& squares) {
     GltfBuilder b;
-    const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));
-    const std::string indices = std::to_string(b.indices({0, 1, 2, 0, 2, 3}));
+    const std::string uv = b.uvs({0, 1, 1, 1, 1, 0, 0, 0});
+    const std::string indices = b.indices({0, 1, 2, 0, 2, 3});
 
     std::string attributes = ",\"TEXCOORD_0\":" + uv;
     if (!colors_.empty()) {
-      attributes +=
-          ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(colors_)), 5126, "VEC3", 4));
+      attributes += ",\"COLOR_0\":" + b.accessor(b.view(bytesOf(colors_)), 5126, "VEC3", 4);
     }
     if (!alphas_.empty()) {
       std::vector<float> rgba;
       for (const float alpha : alphas_) rgba.insert(rgba.end(), {1, 1, 1, alpha});
-      attributes +=
-          ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(rgba)), 5126, "VEC4", 4));
+      attributes += ",\"COLOR_0\":" + b.accessor(b.view(bytesOf(rgba)), 5126, "VEC4", 4);
     }
-    if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + std::to_string(b.uvs(secondUvs_));
+    if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + b.uvs(secondUvs_);
 
     std::string meshes, nodes, roots, materials;
     for (std::size_t i = 0; i < squares.size(); ++i) {
       const auto z = static_cast<float>(squares[i].z), s = static_cast<float>(squares[i].size);
-      const std::string position =
-          std::to_string(b.positions({-s, -s, z, s, -s, z, s, s, z, -s, s, z}));
+      const std::string position = b.positions({-s, -s, z, s, -s, z, s, s, z, -s, s, z});
       const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
       materials += comma + squares[i].material;
-      meshes += comma + "{\"primitives\":[{\"material\":" + number + ",\"indices\":" + indices +
-                ",\"attributes\":{\"POSITION\":" + position + attributes + "}}]}";
+      const std::string shown =
+          primitive(position, attributes, ",\"material\":" + number + ",\"indices\":" + indices);
+      meshes += comma + "{\"primitives\":[" + shown + "]}";
       nodes += "{\"mesh\":" + number + "},";
       roots += number + ",";
     }

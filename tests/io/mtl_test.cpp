@@ -166,12 +166,10 @@ TEST_F(Mtl, DamagedLinesAreLeftOut) {
   }
 
   // With --strict the warning becomes an error.
-  Warnings strict(true);
   save("m.mtl", "newmtl m\nKd 0.5\nmap_Kd\n");
   const std::string file = save("m.obj", std::string("mtllib m.mtl\n") + kTriangleObj);
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
-            "3 m.mtl:3: expected the name of a file after \"map_Kd\": " + kind +
-                " (refused by --strict)");
+  EXPECT_EQ(errorIfStrict(file), "3 m.mtl:3: expected the name of a file after \"map_Kd\": " +
+                                     kind + " (refused by --strict)");
 }
 
 // The texture has one texel. Its coordinates become u' = 0.25 + 2 u and v' = -0.5 + 3 v.
@@ -185,7 +183,7 @@ TEST_F(Mtl, OffsetAndScaleOfMaps) {
       "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nvt 1 0\nvt 0 1\n"
       "usemtl moved\nf 1/1 2/2 3/3\nusemtl plain\nf 1/1 2/2 3/3\nusemtl two\nf 1/1 2/2 3/3\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.uvs[mesh.triangles[0][0]], (Vec2f{1.25f, 0.25f}));
   EXPECT_EQ(mesh.uvs[mesh.triangles[0][2]], (Vec2f{0.25f, 2.5f}));
   EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2f{0.5f, 0.25f}));

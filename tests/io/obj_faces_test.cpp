@@ -14,7 +14,7 @@ constexpr char kSquare[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const Mesh& onlyMesh(const SceneDescription& scene) {
   EXPECT_EQ(scene.objects.size(), 1u);
   EXPECT_EQ(scene.objects.at(0).meshes.size(), 1u);
-  return scene.objects.at(0).meshes.at(0);
+  return meshOf(scene);
 }
 
 using Corners = std::vector<Vec3f>;
@@ -178,7 +178,7 @@ TEST_F(ObjFaces, ColorsOfVertices) {
   const SceneDescription scene =
       loadObj("v 0 0 0 1 0 0.737255\nv 1 0 0 1 0 1 0\nv 0 1 0\nf 1 2 3\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   ASSERT_EQ(mesh.colors.size(), 3u);
 
   EXPECT_EQ(mesh.colors[0].x, 1);
@@ -190,12 +190,12 @@ TEST_F(ObjFaces, ColorsOfVertices) {
   // Values above 1 are codes of 8 bits.
   const SceneDescription codes =
       loadObj("v 0 0 0 255 0 188\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
-  EXPECT_NEAR(codes.objects[0].meshes[0].colors[0].z, 0.502886f, 1e-5f);
+  EXPECT_NEAR(meshOf(codes).colors[0].z, 0.502886f, 1e-5f);
 }
 
 TEST_F(ObjFaces, PositionsWithoutZ) {
   const SceneDescription scene = loadObj("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n");
-  EXPECT_EQ(scene.objects[0].meshes[0].positions[1], Vec3f(1, 0, 0));
+  EXPECT_EQ(meshOf(scene).positions[1], Vec3f(1, 0, 0));
 }
 
 // Two faces meet at a right angle along the z axis. In a smoothing group the normals at this edge
@@ -205,7 +205,7 @@ TEST_F(ObjFaces, SmoothingGroups) {
   const auto normalsAtEdge = [&](const std::string& first, const std::string& second) {
     const SceneDescription scene =
         loadObj(corners + first + "f 1 4 3 2\n" + second + "f 1 2 6 5\n");
-    const Mesh& mesh = scene.objects[0].meshes[0];
+    const Mesh& mesh = meshOf(scene);
 
     std::vector<Vec3f> found;
     for (const auto& triangle : mesh.triangles) {

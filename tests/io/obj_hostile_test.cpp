@@ -9,10 +9,6 @@ namespace {
 
 class ObjHostile : public SceneFileTest {
  protected:
-  std::string errorOfObj(const std::string& text) {
-    return errorOf([&] { loadObj(text); });
-  }
-
   std::string placeOf(const std::string& kind) {
     const auto entries = warnings_.entries();
     const auto entry = entries.find(kind);
@@ -67,7 +63,7 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
   for (const char* odd : {"nan", "-inf", "1e999", "NaN(7)"}) {
     const SceneDescription scene =
         loadObj(std::string(kTriangleObj) + "v 5 " + odd + " 5\nf 2 3 4\n");
-    const Mesh& mesh = scene.objects.at(0).meshes.at(0);
+    const Mesh& mesh = meshOf(scene);
     EXPECT_FALSE(isFinite(mesh.positions[mesh.triangles.at(1)[2]])) << odd;
 
     // The triangle of this position is dropped with a warning.
@@ -81,9 +77,8 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
 }
 
 TEST_F(ObjHostile, StrictRefusesWhatWouldBeMended) {
-  Warnings strict(true);
   const std::string file = save("m.obj", std::string(kTriangleObj) + "f 1 2 4\n");
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+  EXPECT_EQ(errorIfStrict(file),
             "3 m.obj:5: face with a vertex index out of range dropped (refused by --strict)");
 }
 
@@ -108,9 +103,8 @@ TEST_F(ObjHostile, NothingToDrawIsSaidWithItsReason) {
   loadObj("v 0 0 0\nf 1 1 9\n");
   EXPECT_EQ(warned("model with nothing to draw: no face that can be built"), 1u);
 
-  Warnings strict(true);
   const std::string file = save("m.obj", "v 0 0 0\n");
-  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+  EXPECT_EQ(errorIfStrict(file),
             "3 m.obj: model with nothing to draw: no faces (refused by --strict)");
 }
 

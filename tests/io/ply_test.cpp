@@ -68,7 +68,7 @@ TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
     const SceneDescription scene = loadPly(file);
     ASSERT_EQ(triangleCount(scene), 2u);
     EXPECT_EQ(scene.origin, Vec3d(0, 0, -300));
-    EXPECT_EQ(scene.objects[0].meshes[0].positions,
+    EXPECT_EQ(meshOf(scene).positions,
               (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   }
 
@@ -90,7 +90,7 @@ TEST_F(Ply, ColorsOfVertices) {
                             " blue\nelement face 1\nproperty list uchar uint vertex_index\n") +
         "0 0 0 " + one + " 0 " + half + "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
 
-    const Mesh& mesh = scene.objects[0].meshes[0];
+    const Mesh& mesh = meshOf(scene);
     ASSERT_EQ(mesh.colors.size(), 3u) << type;
     EXPECT_EQ(mesh.colors[0].x, 1);
     EXPECT_EQ(mesh.colors[0].y, 0);
@@ -115,7 +115,7 @@ TEST_F(Ply, NormalsAndTextureCoordinates) {
                      "property float t\nelement face 1\nproperty list uchar int vertex_indices\n") +
               "0 0 1 0 0 0 0.5 0.25\n0 0 1 1 0 0 1 0\n0 0 1 +0 1e0 0 0 1\n3 0 1 2\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uvs[0], (Vec2f{0.5f, 0.25f}));
   EXPECT_EQ(mesh.positions[2], Vec3f(0, 1, 0));
@@ -129,8 +129,8 @@ TEST_F(Ply, PolygonsThatAreNotConvex) {
                      "element face 1\nproperty list uchar int vertex_indices\n") +
               "-2 -2 0\n0 -1 0\n2 -2 0\n0 2 0\n4 0 1 2 3\n");
 
-  EXPECT_EQ(scene.objects[0].meshes[0].triangles.size(), 2u);
-  for (const Triangle& t : scene.objects[0].meshes[0].triangles) {
+  EXPECT_EQ(meshOf(scene).triangles.size(), 2u);
+  for (const Triangle& t : meshOf(scene).triangles) {
     EXPECT_TRUE(std::count(t.begin(), t.end(), 1u) && std::count(t.begin(), t.end(), 3u));
   }
 }
@@ -159,7 +159,7 @@ TEST_F(Ply, StripsAndTheirRestarts) {
       loadPly(header("ascii", vertices + strips) + points + "9 0 1 2 3 3 -1 2 3 4\n");
 
   ASSERT_EQ(scene.objects.size(), 1u);
-  EXPECT_EQ(scene.objects[0].meshes[0].triangles, expected);
+  EXPECT_EQ(meshOf(scene).triangles, expected);
   EXPECT_TRUE(warnings_.entries().empty());
 
   // An index out of range ends the strip.
@@ -172,7 +172,7 @@ TEST_F(Ply, StripsAndTheirRestarts) {
 TEST_F(Ply, NumbersBeyondDoubleAreInfinite) {
   const SceneDescription scene =
       loadPly(header("ascii", kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n");
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.positions[0].z, 0);
   EXPECT_EQ(mesh.positions[1].x, std::numeric_limits<float>::infinity());
   EXPECT_EQ(mesh.positions[2].y, -std::numeric_limits<float>::infinity());
@@ -198,7 +198,7 @@ TEST_F(Ply, ColorsOfFaces) {
   const SceneDescription scene = loadPly(header("ascii", kFourVertices + (kTwoFaces + colors)) +
                                          kCorners + "3 0 1 2 255 0 188\n3 0 2 3 0 255 0\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   ASSERT_EQ(mesh.triangles.size(), 2u);
 
   for (const std::uint32_t corner : mesh.triangles[0]) {
@@ -221,7 +221,7 @@ TEST_F(Ply, ShortNamesOfColors) {
                      "property float r\nproperty float g\nproperty float b\nelement face 1\n"
                      "property list uchar int vertex_indices\n") +
               "0 0 0 1 0.5 0\n1 0 0 0 0 1\n0 1 0 0 0 0\n3 0 1 2\n");
-  EXPECT_EQ(scene.objects[0].meshes[0].colors[0], Rgb(1, 0.5f, 0));
+  EXPECT_EQ(meshOf(scene).colors[0], Rgb(1, 0.5f, 0));
 }
 
 TEST_F(Ply, PicturesByCoordinatesOfVertices) {
@@ -235,7 +235,7 @@ TEST_F(Ply, PicturesByCoordinatesOfVertices) {
   const Material& material = scene.materials[0];
   ASSERT_NE(material.diffuseMap, kNoTexture);
   EXPECT_EQ(material.diffuse, Rgb(1.0f));
-  EXPECT_EQ(scene.objects[0].meshes[0].uvs[0], (Vec2f{0.25f, 0.75f}));
+  EXPECT_EQ(meshOf(scene).uvs[0], (Vec2f{0.25f, 0.75f}));
 }
 
 // Images are numbered in the order of the comments. Coordinates belong to the corners of faces.
@@ -249,7 +249,7 @@ TEST_F(Ply, PicturesByCoordinatesOfFaces) {
                           "property list uchar float texcoord\nproperty int texnumber\n") +
       kCorners + "3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 6 0.5 0.5 1 1 0 1 0\n");
 
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   ASSERT_EQ(mesh.materials.size(), 2u);
   EXPECT_EQ(scene.materials[mesh.materials[0]].name, "blue.tga");
   EXPECT_EQ(scene.materials[mesh.materials[1]].name, "red.tga");

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/warnings.h"
 #include "io/load_scene.h"
+#include "temporary_folder.h"
 
 namespace whit {
 
@@ -22,14 +21,7 @@ inline constexpr char kTriangleObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 // A new folder for each test, removed afterwards.
 class SceneFileTest : public testing::Test {
  protected:
-  SceneFileTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "whit-scene-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    std::filesystem::create_directory(folder_ + "/inside");
-    root_ = folder_ + "/inside/";
-  }
-  ~SceneFileTest() override { std::filesystem::remove_all(folder_); }
+  SceneFileTest() { std::filesystem::create_directory(root_); }
 
   // Saves a file beside the scene. A name that begins with "../" leaves the scene's folder.
   std::string save(const std::string& name, const std::string& text) const {
@@ -63,6 +55,19 @@ class SceneFileTest : public testing::Test {
     return "no error";
   }
 
+  std::string errorOfFile(const std::string& path) {
+    return errorOf([&] { load(path); });
+  }
+
+  std::string errorOfScene(const std::string& text) { return errorOfFile(save("s.json", text)); }
+  std::string errorOfObj(const std::string& text) { return errorOfFile(save("m.obj", text)); }
+
+  // Returns the error of a file whose warnings are refused.
+  std::string errorIfStrict(const std::string& path) {
+    Warnings strict(true);
+    return errorOf([&] { loadScene(path, options_, strict); });
+  }
+
   std::string errorOfMembers(const std::string& members) {
     return errorOf([&] { loadMembers(members); });
   }
@@ -80,7 +85,8 @@ class SceneFileTest : public testing::Test {
     return all;
   }
 
-  std::string folder_, root_;
+  const TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path().string(), root_ = folder_ + "/inside/";
   LoadOptions options_;
   Warnings warnings_;
 };
@@ -103,6 +109,11 @@ inline std::string tga(int width, int height, const std::vector<std::vector<int>
   }
 
   return file;
+}
+
+// Returns the mesh of a scene that has a single one, or the first one.
+inline const Mesh& meshOf(const SceneDescription& scene) {
+  return scene.objects.at(0).meshes.at(0);
 }
 
 inline std::size_t triangleCount(const SceneDescription& scene) {

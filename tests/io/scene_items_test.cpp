@@ -159,7 +159,7 @@ TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
       "\"scene\": [{\"use\": \"o\"}, {\"use\": \"o\", \"transform\": {\"translate\": [5,0,0]}}]");
 
   ASSERT_EQ(scene.objects.size(), 1u);
-  const Mesh& mesh = scene.objects[0].meshes[0];
+  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.positions[1], Vec3f(-2, 0, 0));
   EXPECT_NE(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));  // a mirrored winding
   expectPoint(cornerOf(scene, 1, 1), {3, 0, 0});
@@ -196,7 +196,7 @@ TEST_F(SceneItems, MaterialsOfShapesAndTheirSlots) {
       loadMembers(materials + ", \"materials\": {\"leaves\": \"green\"}}, {\"shape\": \"quad\"}]");
 
   ASSERT_EQ(scene.objects.size(), 3u);
-  EXPECT_EQ(scene.materials[scene.objects[0].meshes[0].material(0)].name, "red");    // bark
+  EXPECT_EQ(scene.materials[meshOf(scene).material(0)].name, "red");                 // bark
   EXPECT_EQ(scene.materials[scene.objects[1].meshes[0].material(0)].name, "green");  // leaves
   EXPECT_EQ(scene.materials[scene.objects[2].meshes[0].material(0)].name, "default");
 

@@ -60,8 +60,8 @@ TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(root_);
 
-  EXPECT_EQ(errorOf([&] { load("s.json"); }), "no error");
-  EXPECT_EQ(errorOf([&] { load("in.obj"); }), "no error");
+  EXPECT_EQ(errorOfFile("s.json"), "no error");
+  EXPECT_EQ(errorOfFile("in.obj"), "no error");
   std::filesystem::current_path(before);
 }
 
@@ -97,16 +97,16 @@ TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {
 }
 
 TEST_F(ScenePaths, FilesThatCannotBeRead) {
-  EXPECT_EQ(errorOf([&] { load(root_ + "none.json"); }), "4 cannot open none.json: no such file");
-  EXPECT_EQ(errorOf([&] { load(root_ + "none.obj"); }), "4 cannot open none.obj: no such file");
+  EXPECT_EQ(errorOfFile(root_ + "none.json"), "4 cannot open none.json: no such file");
+  EXPECT_EQ(errorOfFile(root_ + "none.obj"), "4 cannot open none.obj: no such file");
   EXPECT_EQ(errorOfModel("sub.obj"), "4 s.json#/scene/0/model: cannot open sub.obj: no such file");
   EXPECT_EQ(errorOfModel("sub"),
             "3 s.json#/scene/0/model: expected a model (.3ds, .dae, .fbx, .glb, .gltf, .obj, .off, "
             ".ply, .stl, .vrm), found \"sub\"");
 
   std::filesystem::create_directory(root_ + "folder.json");
-  EXPECT_EQ(errorOf([&] { load(root_ + "folder.json"); }), "4 cannot read folder.json: not a file");
-  EXPECT_EQ(errorOf([&] { load(save("a.txt", "")); }).substr(0, 2), "2 ");
+  EXPECT_EQ(errorOfFile(root_ + "folder.json"), "4 cannot read folder.json: not a file");
+  EXPECT_EQ(errorOfFile(save("a.txt", "")).substr(0, 2), "2 ");
 }
 
 TEST_F(ScenePaths, ShippedScenesByName) {
@@ -114,7 +114,7 @@ TEST_F(ScenePaths, ShippedScenesByName) {
   setenv("WHIT_SCENES", root_.c_str(), 1);
   EXPECT_EQ(load("hall").name, "hall");
   EXPECT_EQ(load("hall?w=9").width, 9);
-  EXPECT_EQ(errorOf([&] { load("hal"); }), "2 no scene is called 'hal'; did you mean 'hall'?");
+  EXPECT_EQ(errorOfFile("hal"), "2 no scene is called 'hal'; did you mean 'hall'?");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Scene files that are wrong, and where the errors point.
+#include "has_text.h"
 #include "scene_files.h"
 
 namespace whit {
@@ -14,31 +15,23 @@ TEST_F(SceneSyntax, CommentsAreAllowed) {
 }
 
 TEST_F(SceneSyntax, SyntaxErrorsHaveLineAndColumn) {
-  const auto textOf = [&](const std::string& text) {
-    return errorOf([&] { load(save("s.json", text)); });
-  };
-
-  EXPECT_EQ(textOf("{\n  \"whit\": 1,\n  \"size\" [1, 1]\n}").substr(0, 13), "3 s.json:3:10");
-  EXPECT_EQ(textOf("").substr(0, 12), "3 s.json:1:1");
-  EXPECT_EQ(textOf("{\"whit\": 1,}").substr(0, 13), "3 s.json:1:12");
-  EXPECT_EQ(textOf("{\"whit\": 1, \"size\": \"\xff\"}").substr(0, 12), "3 s.json:1:2");
+  EXPECT_EQ(errorOfScene("{\n  \"whit\": 1,\n  \"size\" [1, 1]\n}").substr(0, 13), "3 s.json:3:10");
+  EXPECT_EQ(errorOfScene("").substr(0, 12), "3 s.json:1:1");
+  EXPECT_EQ(errorOfScene("{\"whit\": 1,}").substr(0, 13), "3 s.json:1:12");
+  EXPECT_EQ(errorOfScene("{\"whit\": 1, \"size\": \"\xff\"}").substr(0, 12), "3 s.json:1:2");
 }
 
 TEST_F(SceneSyntax, NumbersBeyondDoubleHaveTheirPlace) {
   const std::string expected = ": expected a number that a double can hold";
   EXPECT_EQ(errorOfMembers("\"lights\": [{}, {\"position\": [0, 1, -1e999]}]"),
             "3 s.json#/lights/1/position/2" + expected);
-  EXPECT_EQ(errorOf([&] { load(save("s.json", "{\"whit\": 1e999}")); }),
-            "3 s.json#/whit" + expected);
+  EXPECT_EQ(errorOfScene("{\"whit\": 1e999}"), "3 s.json#/whit" + expected);
 }
 
 TEST_F(SceneSyntax, TheVersionIsRequired) {
-  const auto textOf = [&](const std::string& text) {
-    return errorOf([&] { load(save("s.json", text)); });
-  };
-  EXPECT_EQ(textOf("{}"), "3 s.json#: expected a member \"whit\"");
-  EXPECT_EQ(textOf("[1]"), "3 s.json#: expected an object, found a list of 1");
-  EXPECT_EQ(textOf("{\"whit\": 2}"), "3 s.json#/whit: expected 1, found 2");
+  EXPECT_EQ(errorOfScene("{}"), "3 s.json#: expected a member \"whit\"");
+  EXPECT_EQ(errorOfScene("[1]"), "3 s.json#: expected an object, found a list of 1");
+  EXPECT_EQ(errorOfScene("{\"whit\": 2}"), "3 s.json#/whit: expected 1, found 2");
 }
 
 TEST_F(SceneSyntax, KeysGivenTwiceAreRefused) {
@@ -84,20 +77,20 @@ TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
 
   const std::string image = "\"textures\": {\"t\": {\"image\": \"t.png\", \"as\": \"colour\"}}";
   const std::string error = errorOfMembers(image);
-  EXPECT_NE(error.find("(is \"color\" meant?)"), std::string::npos) << error;
+  EXPECT_TRUE(hasText(error, "(is \"color\" meant?)"));
 }
 
 TEST_F(SceneSyntax, NestingIsLimited) {
   const std::string deep = std::string(100, '[') + std::string(100, ']');
   const std::string error = errorOfMembers("\"scene\": " + deep);
-  EXPECT_NE(error.find("nested deeper than 64 levels"), std::string::npos) << error;
+  EXPECT_TRUE(hasText(error, "nested deeper than 64 levels"));
   EXPECT_EQ(error.substr(0, 17), "3 s.json#/scene/0");
 }
 
 TEST_F(SceneSyntax, MembersAreLimited) {
   std::string many = "\"materials\": {";
   for (int i = 0; i < 5000; ++i) many += "\"m" + std::to_string(i) + "\": {},";
-  EXPECT_NE(errorOfMembers(many + "\"z\": {}}").find("more than 4096 members"), std::string::npos);
+  EXPECT_TRUE(hasText(errorOfMembers(many + "\"z\": {}}"), "more than 4096 members"));
 }
 
 TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
@@ -122,8 +115,8 @@ TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
 
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").substr(0, 37),
             "3 s.json#/scene/0/shape: expected one");
-  EXPECT_NE(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").find("(is \"sphere\" meant?)"),
-            std::string::npos);
+  EXPECT_TRUE(
+      hasText(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]"), "(is \"sphere\" meant?)"));
 }
 
 TEST_F(SceneSyntax, CamerasAndPathsMustMakeSense) {

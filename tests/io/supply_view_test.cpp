@@ -1,5 +1,6 @@
 // The view, lights and sky that a model gets without a scene file, and the sky that the user
 // chooses.
+#include "has_text.h"
 #include "io/load_scene.h"
 
 #include <gtest/gtest.h>
@@ -88,13 +89,10 @@ TEST_F(SuppliedView, AzimuthAndZoomReplaceTheCameraOfTheFile) {
 
   const SceneDescription file = loadMembers(R"("view": "model", "scene": [{"shape": "quad"}])");
   EXPECT_NEAR(file.cameras.at(0).eye.z, file.cameras[0].at.z, 1e-5);
-  EXPECT_NE(errorOf([&] {
-              loadMembers(R"("scene": [{"shape": "quad"}])");
-            }).find("azimuth: s is neither a model nor a scene file with \"view\": \"model\""),
-            std::string::npos);
+  EXPECT_TRUE(hasText(errorOfMembers(R"("scene": [{"shape": "quad"}])"),
+                      "azimuth: s is neither a model nor a scene file with \"view\": \"model\""));
   options_.settings = {"/zoom=0"};
-  EXPECT_NE(errorOf([&] { loadObj(kTriangleObj); }).find("m.obj#/zoom: expected"),
-            std::string::npos);
+  EXPECT_TRUE(hasText(errorOfObj(kTriangleObj), "m.obj#/zoom: expected"));
 }
 
 TEST_F(SuppliedView, AShadowLiesBelowAModel) {
@@ -179,9 +177,9 @@ TEST_F(SuppliedView, ASceneFileKeepsItsSkyUnlessAnotherIsAskedFor) {
 
 TEST_F(SuppliedView, ASkyThatIsNotThere) {
   options_.sky = root_ + "no.hdr";
-  EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "4 ");
+  EXPECT_EQ(errorOfObj(kTriangleObj).substr(0, 2), "4 ");
   options_.sky = save("text.hdr", "not an image");
-  EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "3 ");
+  EXPECT_EQ(errorOfObj(kTriangleObj).substr(0, 2), "3 ");
 }
 
 // A bar that stands on the plane z = 0, centered on the z axis.
@@ -209,7 +207,7 @@ TEST_F(SuppliedView, ACameraThatSeesNothingGivesWayToAViewOfTheModel) {
   ASSERT_EQ(turned.cameras.size(), 2u);
   EXPECT_TRUE(seesSomething(turned, turned.cameras[0]));
   EXPECT_EQ(turned.cameras[1].name, "own");
-  EXPECT_NE(kinds().find("camera that sees nothing"), std::string::npos);
+  EXPECT_TRUE(hasText(kinds(), "camera that sees nothing"));
 }
 
 TEST_F(SuppliedView, TheViewpointIsChosen) {
@@ -221,8 +219,7 @@ TEST_F(SuppliedView, TheViewpointIsChosen) {
   EXPECT_LT(maxComponent(abs(eye - Vec3f{0, 2, 0})), 2) << "in the bar";
 
   options_.settings = {"/viewpoint=\"above\""};
-  EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("m.obj#/viewpoint: expected"),
-            std::string::npos);
+  EXPECT_TRUE(hasText(errorOfObj(kZUpObj), "m.obj#/viewpoint: expected"));
 }
 
 // A box with two materials, whose fronts look inside.
@@ -237,7 +234,7 @@ TEST_F(SuppliedView, AViewFromInsideIsSaid) {
   EXPECT_EQ(kinds(), "") << "a single mesh without materials is a body";
 
   loadObj(room + "usemtl a\nf 1 2 3\n");
-  EXPECT_NE(kinds().find("seen from inside (--viewpoint outside"), std::string::npos);
+  EXPECT_TRUE(hasText(kinds(), "seen from inside (--viewpoint outside"));
 }
 
 TEST_F(SuppliedView, AnAxisIsTurnedUp) {
@@ -252,16 +249,16 @@ TEST_F(SuppliedView, AnAxisIsTurnedUp) {
   options_.settings = {"/up=\"x\""};
   EXPECT_EQ(boundsOf(loadObj("v 0 0 0\nv 5 1 0\nv 0 1 2\nf 1 2 3\n")).upper, (Vec3f{0, 5, 2}));
   options_.settings = {"/up=\"w\""};
-  EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("\"x\", \"y\" or \"z\""), std::string::npos);
+  EXPECT_TRUE(hasText(errorOfObj(kZUpObj), "\"x\", \"y\" or \"z\""));
 
   options_.settings = {"/up=\"z\""};
-  EXPECT_NE(errorOf([&] { loadLit(1); }).find("files of this format say"), std::string::npos);
+  EXPECT_TRUE(hasText(errorOf([&] { loadLit(1); }), "files of this format say"));
 }
 
 TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
   EXPECT_EQ(boundsOf(loadObj(kZUpObj)).upper, (Vec3f{1, 4, 1}));
   ASSERT_EQ(warnings_.entries().size(), 1u);
-  EXPECT_NE(warnings_.entries().begin()->first.find("z seems to be up"), std::string::npos);
+  EXPECT_TRUE(hasText(warnings_.entries().begin()->first, "z seems to be up"));
 
   // A flat model, one with y up that extends on both sides of z = 0, one that extends to one side
   // only, and one around the origin stay as they are.

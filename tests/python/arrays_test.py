@@ -5,9 +5,10 @@ import pickle
 import unittest
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, program, square, square_scene, temporary_folder
+from samples import SIZE, pixels, program, scene_of, square, square_scene, temporary_folder
 
 SHAPE_SCENE = """{"whit": 1,
   "cameras": {"above": {"eye": [0, 3, 2], "at": [0, 0, 0], "fov": 50}},
@@ -25,13 +26,13 @@ class Arrays(unittest.TestCase):
             with open("scene.json", "w", encoding="utf-8") as file:
                 file.write(SHAPE_SCENE)
             program("render", "scene.json", "--size", "48x30", "-o", "program.exr", "--quiet")
-            picture = whit.Scene(square_scene()).render(size=SIZE)
+            picture = scene_of().render(size=SIZE)
             picture.write("module.exr")
             program("compare", "module.exr", "program.exr", "--tolerance", "0", "--quiet")
             self.assertGreater(picture.rgb.max(), 0.3)
 
     def test_any_kind_of_numbers(self):
-        expected = whit.Scene(square_scene()).render(size=SIZE).rgb
+        expected = pixels(scene_of())
         mesh = square()
         for floats in (np.float32, np.float64, np.float16, int, list):
             for indices in (np.uint32, np.int32, np.int64, np.uint8, list):
@@ -40,12 +41,12 @@ class Arrays(unittest.TestCase):
                 triangles = (mesh.triangles.tolist() if indices is list
                              else mesh.triangles.astype(indices))
                 other = whit.Mesh(positions, triangles)
-                rgb = whit.Scene(square_scene(other)).render(size=SIZE).rgb
-                np.testing.assert_array_equal(rgb, expected)
+                rgb = pixels(scene_of(other))
+                assert_array_equal(rgb, expected)
         strided = np.repeat(mesh.positions, 2, axis=0)[::2]
         self.assertFalse(strided.flags.c_contiguous)
-        rgb = whit.Scene(square_scene(whit.Mesh(strided, mesh.triangles))).render(size=SIZE).rgb
-        np.testing.assert_array_equal(rgb, expected)
+        rgb = pixels(scene_of(whit.Mesh(strided, mesh.triangles)))
+        assert_array_equal(rgb, expected)
 
     def test_arrays_are_read_where_they_are(self):
         positions, triangles = square().positions, square().triangles
@@ -58,8 +59,7 @@ class Arrays(unittest.TestCase):
     def test_triangles_one_after_the_other(self):
         mesh = square()
         soup = whit.Mesh(mesh.positions[mesh.triangles.ravel()])
-        np.testing.assert_array_equal(whit.Scene(square_scene(soup)).render(size=SIZE).rgb,
-                                      whit.Scene(square_scene(mesh)).render(size=SIZE).rgb)
+        assert_array_equal(pixels(scene_of(soup)), pixels(scene_of(mesh)))
 
     def test_textures(self):
         codes = np.arange(4 * 6 * 3, dtype=np.uint8).reshape(4, 6, 3) * 3
@@ -70,79 +70,78 @@ class Arrays(unittest.TestCase):
         pictures = []
         for array in (codes, {"array": codes, "wrap": "repeat"}, linear, codes[:, :, :]):
             scene = square_scene(square(uvs=uvs), materials=materials, textures={"codes": array})
-            pictures.append(whit.Scene(scene).render(size=SIZE).rgb)
-        np.testing.assert_array_equal(pictures[0], pictures[1])
-        np.testing.assert_array_equal(pictures[0], pictures[3])
+            pictures.append(pixels(whit.Scene(scene)))
+        assert_array_equal(pictures[0], pictures[1])
+        assert_array_equal(pictures[0], pictures[3])
         # Textures are kept in 10 bits of the square root, to which both are rounded.
         np.testing.assert_allclose(pictures[0], pictures[2], atol=2e-3)
-        self.assertFalse(np.array_equal(pictures[0], whit.Scene(square_scene()).render(size=SIZE)))
+        self.assertFalse(np.array_equal(pictures[0], scene_of().render(size=SIZE)))
 
     def test_one_mesh_in_two_places_is_kept_once(self):
         mesh = square()
         items = [{"mesh": mesh}, {"mesh": mesh, "transform": {"translate": [0, 1, 0]}}]
-        scene = whit.Scene(square_scene(scene=items))
+        scene = scene_of(scene=items)
         self.assertEqual(scene.triangles, 4)
 
     def test_what_is_moved(self):
         scene = whit.Scene(square_scene(), movable=["/scene/0", "/lights/0"])
-        rest = scene.render(size=SIZE).rgb
+        rest = pixels(scene)
         place = np.eye(4)
         place[:3, 3] = (0.25, 0.5, 0)
         scene.set_transform("/scene/0", place)
-        moved = scene.render(size=SIZE).rgb
+        moved = pixels(scene)
         self.assertFalse(np.array_equal(rest, moved))
         description = square_scene()
         description["scene"][0]["transform"] = {"matrix": place[:3].ravel()}
         # What can be moved is traced in its own space, with roundings of its own.
         placed = whit.Scene(description, movable=["/scene/0", "/lights/0"])
-        np.testing.assert_array_equal(moved, placed.render(size=SIZE).rgb)
+        assert_array_equal(moved, pixels(placed))
         scene.set_transform("/scene/0", np.eye(4)[:3])
-        np.testing.assert_array_equal(rest, scene.render(size=SIZE).rgb)
+        assert_array_equal(rest, pixels(scene))
 
     def test_vertices_that_move(self):
         mesh = square(name="sheet")
-        scene = whit.Scene(square_scene(mesh))
-        rest = scene.render(size=SIZE).rgb
+        scene = scene_of(mesh)
+        rest = pixels(scene)
         positions = mesh.positions + np.array([0, 0.5, 0.25], np.float32)
-        expected = whit.Scene(square_scene(square(positions=positions))).render(size=SIZE).rgb
+        expected = pixels(scene_of(square(positions=positions)))
         self.assertFalse(np.array_equal(expected, rest))
 
         moving = positions.astype(np.float64)
         scene.update_mesh("sheet", moving)
         moving[:] = 0  # the scene has a copy
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected)
-        np.testing.assert_array_equal(copy.copy(scene).render(size=SIZE).rgb, expected)
+        assert_array_equal(pixels(scene), expected)
+        assert_array_equal(pixels(copy.copy(scene)), expected)
         self.assertAlmostEqual(float(scene.closest([0, 2, 0], [0, -1, 0]).t), 1.5)
         scene.update_mesh("sheet", mesh.positions)
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+        assert_array_equal(pixels(scene), rest)
 
         # Members that were set before stay.
         scene.set("/lights/0/intensity", 6)
-        dim = scene.render(size=SIZE).rgb
+        dim = pixels(scene)
         scene.update_mesh("sheet", positions)
         scene.update_mesh("sheet", mesh.positions)
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, dim)
+        assert_array_equal(pixels(scene), dim)
 
     def test_other_arrays_of_a_mesh(self):
         normals = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
         tilted = np.tile(np.array([0.6, 0.8, 0], np.float32), (4, 1))
         mesh = square(name="sheet", normals=normals)
-        scene = whit.Scene(square_scene(mesh))
+        scene = scene_of(mesh)
         for given, expected in ((None, normals), (tilted, tilted), (None, tilted)):
             scene.update_mesh("sheet", mesh.positions, normals=given)
-            other = whit.Scene(square_scene(square(normals=expected)))
-            np.testing.assert_array_equal(scene.render(size=SIZE).rgb, other.render(size=SIZE).rgb)
+            other = scene_of(square(normals=expected))
+            assert_array_equal(pixels(scene), pixels(other))
 
         half = square(triangles=[[0, 1, 2]])
         scene.update_mesh("sheet", half)
         self.assertEqual(scene.triangles, 1)
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb,
-                                      whit.Scene(square_scene(half)).render(size=SIZE).rgb)
+        assert_array_equal(pixels(scene), pixels(scene_of(half)))
 
     def test_vertices_that_cannot_move(self):
         mesh = square(name="sheet")
-        scene = whit.Scene(square_scene(mesh))
-        rest = scene.render(size=SIZE).rgb
+        scene = scene_of(mesh)
+        rest = pixels(scene)
         nan = mesh.positions * np.nan
         cases = [
             ("name", "'sheet'", lambda: scene.update_mesh("shet", mesh.positions)),
@@ -156,12 +155,12 @@ class Arrays(unittest.TestCase):
         for place, expected, make in cases:
             with self.subTest(place=place, expected=expected):
                 self.expect(place, expected, make)
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+        assert_array_equal(pixels(scene), rest)
         scene.set("/materials/red/diffuseMap", None)  # reads the scene again
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+        assert_array_equal(pixels(scene), rest)
 
         items = [{"mesh": mesh}, {"mesh": square(name="sheet")}]
-        self.expect("/scene/1/mesh", "different names", lambda: whit.Scene(square_scene(scene=items)))
+        self.expect("/scene/1/mesh", "different names", lambda: scene_of(scene=items))
 
     def expect(self, place, expected, make, status=3):
         with self.assertRaises(whit.Error) as caught:
@@ -206,12 +205,12 @@ class Arrays(unittest.TestCase):
                 self.expect(place, expected, make)
         for expected, mesh in scenes:
             with self.subTest(expected=expected):
-                self.expect("/scene/0/mesh", expected, lambda: whit.Scene(square_scene(mesh)))
+                self.expect("/scene/0/mesh", expected, lambda: scene_of(mesh))
 
     def test_empty_meshes(self):
         for mesh in (whit.Mesh([]), whit.Mesh(np.empty((0, 3))),
                      whit.Mesh(np.empty((0, 3)), np.empty((0, 3), int))):
-            rgb = whit.Scene(square_scene(mesh)).render(size=SIZE).rgb
+            rgb = pixels(scene_of(mesh))
             self.assertEqual(rgb.max(), 0)
 
     def test_arrays_that_are_no_texture(self):
@@ -220,11 +219,11 @@ class Arrays(unittest.TestCase):
                       np.zeros((2, 2, 2, 2), np.uint8), np.zeros((4, 4), np.uint16)):
             with self.subTest(shape=array.shape, dtype=array.dtype):
                 with self.assertRaises(whit.Error):
-                    whit.Scene(square_scene(textures={"bad": array}))
+                    scene_of(textures={"bad": array})
         for value in (np.nan, -1, np.inf):
             array = np.full((2, 2, 3), value, np.float32)
-            self.expect("/textures/bad/array", "", lambda: whit.Scene(square_scene(
-                textures={"bad": array}, materials={"red": {"diffuseMap": "bad"}})))
+            self.expect("/textures/bad/array", "", lambda: scene_of(
+                textures={"bad": array}, materials={"red": {"diffuseMap": "bad"}}))
 
     def test_descriptions_that_make_no_sense(self):
         loop = []
@@ -243,14 +242,14 @@ class Arrays(unittest.TestCase):
         ]
         for place, members in cases:
             with self.subTest(place=place):
-                self.expect(place, "", lambda: whit.Scene(square_scene(**members)))
+                self.expect(place, "", lambda: scene_of(**members))
         with self.assertRaises(whit.Error) as caught:
-            whit.Scene(square_scene(path=loop))
+            scene_of(path=loop)
         self.assertTrue(caught.exception.place.startswith("/path/0/0/0"))
 
     def test_huge_counts(self):
         self.expect(None, "", lambda: whit.Scene(square_scene(), max_memory_gb=1e-8), 5)
-        self.expect(None, "", lambda: whit.Scene(square_scene()).render(size=(65536, 65536)), 5)
+        self.expect(None, "", lambda: scene_of().render(size=(65536, 65536)), 5)
         repeat = {"count": [10000, 1000, 1], "step": [1, 1, 1]}
         description = square_scene()
         description["scene"][0]["repeat"] = dict(repeat, count=[10000, 10000, 1])

@@ -4,9 +4,10 @@ import threading
 import unittest
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, program, square_scene, temporary_folder
+from samples import SIZE, pixels, program, scene_of, temporary_folder
 
 CASES = [
     ("whitted", {}, {}, []),
@@ -70,7 +71,7 @@ class Bits(unittest.TestCase):
         settings = {"/lights/0/intensity": 40, "/cameras/main/eye": [1, 2, 5.5],
                     "/scene/1/radius": 0.5}
         expected = whit.Scene("whitted", settings=settings).render(size=SIZE)
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected.rgb)
+        assert_array_equal(pixels(scene), expected.rgb)
 
     def test_a_budget_chooses_options_that_make_the_same_picture(self):
         scene = whit.Scene("whitted")
@@ -82,18 +83,18 @@ class Bits(unittest.TestCase):
             self.assertLessEqual(receipt["error_low"], receipt["error_high"])
             options = {name.replace("-", "_"): value for name, value in receipt["chosen"].items()}
             same = scene.render(size=SIZE, depth=3, **options)
-            np.testing.assert_array_equal(picture.rgb, same.rgb)
+            assert_array_equal(picture.rgb, same.rgb)
             self.assertIsNone(same.receipt)
         with self.assertRaisesRegex(whit.Error, "expected a time"):
             scene.render(size=SIZE, budget="soon")
 
     def test_options_hold_for_one_picture(self):
         scene = whit.Scene("whitted")
-        before = scene.render(size=SIZE).rgb
+        before = pixels(scene)
         self.assertFalse(np.array_equal(before, scene.render(size=SIZE, depth=0).rgb))
         with self.assertRaises(whit.Error):
             scene.render(size=SIZE, depth=0, spp=-1)
-        np.testing.assert_array_equal(before, scene.render(size=SIZE).rgb)
+        assert_array_equal(before, pixels(scene))
 
     def test_pictures_outlive_their_scene_and_those_that_follow(self):
         scene = whit.Scene("whitted")
@@ -101,7 +102,7 @@ class Bits(unittest.TestCase):
         kept, rgb = picture.rgb.copy(), picture.rgb
         scene.render(size=SIZE, depth=0)
         del scene, picture
-        np.testing.assert_array_equal(kept, rgb)
+        assert_array_equal(kept, rgb)
 
     def test_four_threads_render_four_scenes_at_once(self):
         names = ["whitted", "glossy", "matte", "orrery"]
@@ -122,7 +123,7 @@ class Bits(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_threads_take_turns_at_one_scene(self):
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
         expected = {depth: scene.render(size=SIZE, eye=(depth, 3, 2)).rgb for depth in range(4)}
         wrong = []
 

@@ -3,9 +3,10 @@
 import unittest
 
 import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import square_scene, temporary_folder
+from samples import scene_of, temporary_folder
 
 SIZE = (64, 48)
 K = np.array([[70.0, 3, 30.5], [0, 66, 21.25], [0, 0, 1]])
@@ -31,17 +32,17 @@ class Cameras(unittest.TestCase):
     def test_the_pose_comes_back_in_both_axes(self):
         for axes in ("opencv", "opengl"):
             camera = whit.Camera.from_k(K, pose(axes), SIZE, axes)
-            np.testing.assert_allclose(camera.pose, pose(axes), atol=1e-6)
-            np.testing.assert_array_equal(camera.k, K)
+            assert_allclose(camera.pose, pose(axes), atol=1e-6)
+            assert_array_equal(camera.k, K)
         same = whit.Camera.from_k(K, pose("opengl"), SIZE, axes="opengl")
-        np.testing.assert_allclose(same.members["at"], whit.Camera.from_k(
+        assert_allclose(same.members["at"], whit.Camera.from_k(
             K, pose("opencv"), SIZE).members["at"], atol=1e-12)
 
     def test_pixels_are_those_of_opencv(self):
         camera = whit.Camera.from_k(K, pose(), SIZE)
         points = np.random.default_rng(1).uniform(-1, 1, (5, 7, 3))
         seen = (points - pose()[:3, 3]) @ pose()[:3, :3] @ K.T
-        np.testing.assert_allclose(camera.project(points), seen[..., :2] / seen[..., 2:], atol=1e-4)
+        assert_allclose(camera.project(points), seen[..., :2] / seen[..., 2:], atol=1e-4)
         behind = pose()[:3, 3] - pose()[:3, 2]
         self.assertTrue(np.isnan(camera.project(behind)).all())
 
@@ -50,27 +51,26 @@ class Cameras(unittest.TestCase):
         points = np.random.default_rng(2).uniform(-1, 1, (6, 3))
         depths = (points - camera.pose[:3, 3]) @ camera.pose[:3, 2]
         back = camera.unproject(depths, camera.project(points))
-        np.testing.assert_allclose(back, points, atol=1e-12)
+        assert_allclose(back, points, atol=1e-12)
 
     def test_pictures_of_other_sizes_scale_the_matrix(self):
         members = whit.Camera.from_k(K, pose(), SIZE).members
         camera = whit.Camera(members, (2 * SIZE[0], 3 * SIZE[1]))
         # From corner to corner of a pixel, as centers do not scale.
         scale = np.array([[2, 0, 0.5], [0, 3, 1], [0, 0, 1]])
-        np.testing.assert_allclose(camera.k, scale @ K, atol=1e-12)
+        assert_allclose(camera.k, scale @ K, atol=1e-12)
         picture = wall().render(camera=camera, channels=["depth", "position"])
-        np.testing.assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"],
-                                   atol=2e-5)
+        assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"], atol=2e-5)
 
     def test_a_depth_picture_becomes_points(self):
         camera = whit.Camera.from_k(K, pose("opengl"), SIZE, "opengl")
         picture = wall().render(camera=camera, channels=["depth", "position"])
         self.assertEqual((picture.width, picture.height), SIZE)
         points = camera.unproject(picture["depth.Z"])
-        np.testing.assert_allclose(points, picture["position"], atol=2e-5)
-        np.testing.assert_allclose(points[..., 2], 0, atol=2e-5)
+        assert_allclose(points, picture["position"], atol=2e-5)
+        assert_allclose(points[..., 2], 0, atol=2e-5)
         x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
-        np.testing.assert_allclose(camera.project(points), np.stack([x, y], -1), atol=1e-3)
+        assert_allclose(camera.project(points), np.stack([x, y], -1), atol=1e-3)
 
     def test_far_models_are_seen_in_coordinates_of_their_file(self):
         far = np.array([4000000.1, 0, 500000.2])
@@ -88,18 +88,18 @@ class Cameras(unittest.TestCase):
             hit = np.isfinite(picture["depth.Z"])
             self.assertTrue(hit.sum() > 100)
             # Coordinates of the channel are in single precision.
-            np.testing.assert_allclose(points[hit], picture["position"][hit], atol=0.3)
-            np.testing.assert_allclose(points[hit][:, 1], 0, atol=1e-3)
+            assert_allclose(points[hit], picture["position"][hit], atol=0.3)
+            assert_allclose(points[hit][:, 1], 0, atol=1e-3)
             eye = camera.pose[:3, 3]
             ways = points[hit] - eye
             found = scene.closest(np.broadcast_to(eye, ways.shape), ways)
-            np.testing.assert_allclose(found.point, points[hit], atol=1e-3)
+            assert_allclose(found.point, points[hit], atol=1e-3)
 
     def test_distortion_moves_what_is_projected(self):
         camera = whit.Camera.from_k(K, pose(), SIZE, distortion=[-0.2, 0.05, 0.01, -0.02, 0.01])
         picture = wall().render(camera=camera, channels=["position"])
         x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
-        np.testing.assert_allclose(camera.project(picture["position"]), np.stack([x, y], -1), atol=2e-3)
+        assert_allclose(camera.project(picture["position"]), np.stack([x, y], -1), atol=2e-3)
         with self.assertRaisesRegex(whit.Error, "position"):
             camera.unproject(np.ones(SIZE[::-1]))
 
@@ -108,27 +108,27 @@ class Cameras(unittest.TestCase):
         scene = whit.Scene({"size": SIZE, "cameras": {"a": given, "b": {
             "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 30}}, "scene": []})
         for camera in (scene.camera(), scene.camera("a")):
-            np.testing.assert_array_equal(camera.k, K)
-            np.testing.assert_allclose(camera.pose, given.pose, atol=1e-6)
+            assert_array_equal(camera.k, K)
+            assert_allclose(camera.pose, given.pose, atol=1e-6)
         back = scene.camera("b", axes="opengl")
         self.assertAlmostEqual(back.fov, 30)
         wanted = np.eye(4)
         wanted[2, 3] = 5
-        np.testing.assert_allclose(back.pose, wanted, atol=1e-12)
-        np.testing.assert_allclose(back.k[1, 1], 24 / np.tan(np.radians(15)))
-        np.testing.assert_array_equal(back.k[:2, 2], [31.5, 23.5])
+        assert_allclose(back.pose, wanted, atol=1e-12)
+        assert_allclose(back.k[1, 1], 24 / np.tan(np.radians(15)))
+        assert_array_equal(back.k[:2, 2], [31.5, 23.5])
         self.assertAlmostEqual(given.fov, np.degrees(np.arctan(21.75 / 66) + np.arctan(26.25 / 66)))
         with self.assertRaisesRegex(whit.Error, "'c'"):
             scene.camera("c")
 
     def test_a_camera_holds_for_one_picture(self):
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
         before = scene.render(size=SIZE).rgb
         same = scene.render(camera=scene.camera(), size=SIZE)
-        np.testing.assert_array_equal(same.rgb, before)
+        assert_array_equal(same.rgb, before)
         other = scene.render(camera=whit.Camera.from_k(K, pose(), SIZE))
         self.assertFalse(np.array_equal(other.rgb, before))
-        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, before)
+        assert_array_equal(scene.render(size=SIZE).rgb, before)
 
     def test_what_is_no_camera(self):
         for k, place, axes, what in ((np.eye(2), pose(), "opencv", "K"),
@@ -140,12 +140,12 @@ class Cameras(unittest.TestCase):
             with self.assertRaisesRegex(whit.Error, f"^{what}: expected"):
                 whit.Camera.from_k(k, place, SIZE, axes)
         panorama = whit.Camera({"eye": [0, 0, 1], "at": [0, 0, 0], "projection": "panorama"}, SIZE)
-        self.assertEqual(whit.Scene(square_scene()).render(camera=panorama).width, SIZE[0])
+        self.assertEqual(scene_of().render(camera=panorama).width, SIZE[0])
         with self.assertRaisesRegex(whit.Error, "^k: expected a perspective camera"):
             panorama.project([0, 0, 0])
         panorama.members["aperture"] = 0.1
         with self.assertRaisesRegex(whit.Error, "camera#/aperture"):
-            whit.Scene(square_scene()).render(camera=panorama)
+            scene_of().render(camera=panorama)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 import whit
-from samples import SIZE, square_scene, temporary_folder
+from samples import SIZE, pixels, scene_of, temporary_folder
 
 LONG = dict(size=(640, 400), spp=64)  # seconds, if nothing ends it
 
@@ -19,10 +19,10 @@ LONG = dict(size=(640, 400), spp=64)  # seconds, if nothing ends it
 class Control(unittest.TestCase):
     def setUp(self):
         self.scene = whit.Scene("whitted")
-        self.expected = self.scene.render(size=SIZE).rgb.copy()
+        self.expected = pixels(self.scene).copy()
 
     def tearDown(self):
-        np.testing.assert_array_equal(self.scene.render(size=SIZE).rgb, self.expected)
+        np.testing.assert_array_equal(pixels(self.scene), self.expected)
 
     def test_progress_is_told_and_ends_the_work(self):
         told = []
@@ -195,7 +195,7 @@ class Growth(unittest.TestCase):
             with open("/proc/self/statm", encoding="ascii") as file:
                 return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
 
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
 
         def render(count):
             for i in range(count):
@@ -206,7 +206,7 @@ class Growth(unittest.TestCase):
                     with self.assertRaises(whit.Error):
                         scene.render(size=(160, 100), camera="nobody")
                 if i % 50 == 0:
-                    whit.Scene(square_scene()).render(size=SIZE)
+                    scene_of().render(size=SIZE)
 
         render(renders // 10)
         before = resident()

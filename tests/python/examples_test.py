@@ -10,9 +10,10 @@ import types
 import unittest
 
 import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import SIZE, program, square_scene, temporary_folder
+from samples import SIZE, pixels, program, scene_of, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
@@ -89,11 +90,11 @@ class Signatures(unittest.TestCase):
 
     def test_every_option_takes_its_preset(self):
         scene = whit.Scene("whitted")
-        expected = scene.render(size=SIZE).rgb
+        expected = pixels(scene)
         for keyword, option in _options.OPTIONS.items():
             if option.preset and keyword != "size":
                 rgb = scene.render(size=SIZE, **{keyword: option.preset}).rgb
-                np.testing.assert_array_equal(rgb, expected, keyword)
+                assert_array_equal(rgb, expected, keyword)
 
     def test_values_as_python_has_them(self):
         text = {keyword: option.text for keyword, option in _options.OPTIONS.items()}
@@ -115,7 +116,7 @@ class Signatures(unittest.TestCase):
         for color in (), (1, 1), (1, 1, 1, 1), (0, 0, 256), (-0.1, 0, 0), (0, float("nan"), 0):
             with self.subTest(color=color), self.assertRaisesRegex(ValueError, "^background: exp"):
                 text(color)
-        picture = whit.Scene(square_scene()).render(size=SIZE, background=(1, 0.5, 0))
+        picture = scene_of().render(size=SIZE, background=(1, 0.5, 0))
         self.assertEqual(picture.srgb[0, 0].tolist(), [255, 128, 0])
 
     def test_the_module_lists_what_it_offers(self):
@@ -141,11 +142,11 @@ class Pictures(unittest.TestCase):
         self.assertEqual(np.asarray(picture, np.float64).dtype, np.float64)
 
     def test_alpha(self):
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
         picture = scene.render(size=SIZE)
         self.assertEqual((picture.rgba.shape, picture.rgba.dtype), ((30, 48, 4), np.uint8))
         self.assertTrue(np.shares_memory(picture.rgba, picture.srgb))
-        np.testing.assert_array_equal(picture.rgba[..., :3], picture.srgb)
+        assert_array_equal(picture.rgba[..., :3], picture.srgb)
         self.assertTrue((picture.rgba[..., 3] == 255).all())
         alpha = scene.render(size=SIZE, background="transparent").rgba[..., 3]
         self.assertEqual((alpha[0, 0], alpha[15, 24]), (0, 255))
@@ -172,16 +173,16 @@ class Pictures(unittest.TestCase):
             self.assertEqual(memoryview(array).tobytes(), array.tobytes())
         self.assertTrue(np.shares_memory(np.from_dlpack(picture.srgb), picture.srgb))
         self.assertIs(picture["depth.Z"], picture["depth.Z"])
-        np.testing.assert_array_equal(picture["depth.distance"], picture["depth"][:, :, 1])
-        np.testing.assert_array_equal(picture["normal.Z"], picture["normal"][:, :, 2])
+        assert_array_equal(picture["depth.distance"], picture["depth"][:, :, 1])
+        assert_array_equal(picture["normal.Z"], picture["normal"][:, :, 2])
 
     def test_arrays_outlive_their_picture(self):
         scene = whit.Scene("whitted")
-        expected = scene.render(size=SIZE).rgb.copy()
-        array = np.from_dlpack(scene.render(size=SIZE).rgb)
+        expected = pixels(scene).copy()
+        array = np.from_dlpack(pixels(scene))
         gc.collect()
         scene.render(size=SIZE, spp=4)
-        np.testing.assert_array_equal(array, expected)
+        assert_array_equal(array, expected)
 
     def test_what_is_written_to_arrays_is_in_files(self):
         with temporary_folder():
@@ -208,15 +209,15 @@ class Pictures(unittest.TestCase):
             vertex_normals=tracked([[0, 1, 0]] * 4, np.float64),
             visual=types.SimpleNamespace(uv=np.array([[0, 1], [0, 0], [1, 0], [1, 1]], float)))
         mesh = eval(line, {"whit": whit, "m": m})
-        expected = whit.Scene(square_scene()).render(size=SIZE).rgb
-        np.testing.assert_array_equal(whit.Scene(square_scene(mesh)).render(size=SIZE).rgb, expected)
+        expected = pixels(scene_of())
+        assert_array_equal(pixels(scene_of(mesh)), expected)
         self.assertEqual(mesh.uvs.shape, (4, 2))
 
     def test_the_top_row_comes_first(self):
         sky = {"zenith": [0, 0, 1], "horizon": [1, 1, 1], "ground": [0, 1, 0]}
         scene = whit.Scene({"cameras": {"c": {"eye": [0, 0, 0], "at": [1, 0, 0], "fov": 120}},
                             "sky": sky})
-        rgb = scene.render(size=SIZE).rgb
+        rgb = pixels(scene)
         self.assertGreater(rgb[0, 24, 2], rgb[0, 24, 1])
         self.assertGreater(rgb[-1, 24, 1], rgb[-1, 24, 2])
 
@@ -225,23 +226,23 @@ class Pictures(unittest.TestCase):
         whole = scene.render(size=SIZE)
         crop = scene.render(size=SIZE, crop=(8, 4, 20, 16))
         self.assertEqual((crop.left, crop.top, crop.width, crop.height), (8, 4, 12, 12))
-        np.testing.assert_array_equal(crop.rgb, whole.rgb[4:16, 8:20])
+        assert_array_equal(crop.rgb, whole.rgb[4:16, 8:20])
 
     def test_channels(self):
         """Of a square in the plane y = 0, seen from 3 above by parallel rays, 2 high."""
         camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}
-        scene = whit.Scene(square_scene(cameras={"above": camera}))
+        scene = scene_of(cameras={"above": camera})
         self.assertEqual(scene.materials, ["red"])
         picture = scene.render(size=(40, 40), channels=["depth", "normal", "material", "rays"])
         self.assertEqual(list(picture.channels), ["depth", "normal", "material", "rays"])
         there = np.zeros((40, 40), bool)
         there[10:30, 10:30] = True
-        np.testing.assert_array_equal(picture["material"] == 0, there)
+        assert_array_equal(picture["material"] == 0, there)
         self.assertEqual(picture["material"].dtype, np.uint32)
-        np.testing.assert_allclose(picture["depth.Z"][there], 3, rtol=1e-6)
-        np.testing.assert_array_equal(picture["depth"][..., 0], picture["depth.Z"])
+        assert_allclose(picture["depth.Z"][there], 3, rtol=1e-6)
+        assert_array_equal(picture["depth"][..., 0], picture["depth.Z"])
         self.assertTrue(np.all(np.isinf(picture["depth.Z"][~there])))
-        np.testing.assert_allclose(picture["normal"][there], np.tile([0, 1, 0], (400, 1)))
+        assert_allclose(picture["normal"][there], np.tile([0, 1, 0], (400, 1)))
         self.assertTrue(np.all(picture["rays"] >= 1))
         self.assertEqual(scene.render(size=(40, 40)).channels, {})
         for name in ("albedo", "depth.W", "nothing"):
@@ -261,15 +262,15 @@ class Pictures(unittest.TestCase):
             picture = scene.render(size=(40, 40), channels=["motion", "object"], **options)
             return picture["motion"][picture["object"] == 0]
 
-        np.testing.assert_allclose(motion(), np.zeros((400, 2)), atol=1e-5)
+        assert_allclose(motion(), np.zeros((400, 2)), atol=1e-5)
         place[:, 3] = (0.5, 0, 1)
         scene.set_transform("/scene/0", place)
-        np.testing.assert_allclose(motion(), np.tile([5, 10], (400, 1)), atol=1e-5)
+        assert_allclose(motion(), np.tile([5, 10], (400, 1)), atol=1e-5)
         place[:, 3] = (-0.5, 0, 1)
         scene.set_transform("/scene/0", place)
         moved = whit.Camera({**camera, "eye": [-0.75, 3, 0], "at": [-0.75, 0, 0]}, (40, 40))
-        np.testing.assert_allclose(motion(camera=moved) - [-2.5, 0], 0, atol=1e-5)
-        np.testing.assert_allclose(motion(camera=moved), 0, atol=1e-5)
+        assert_allclose(motion(camera=moved) - [-2.5, 0], 0, atol=1e-5)
+        assert_allclose(motion(camera=moved), 0, atol=1e-5)
 
     def test_they_show_themselves(self):
         picture = whit.Scene("whitted").render(size=SIZE)

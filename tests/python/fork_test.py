@@ -10,9 +10,10 @@ import traceback
 import unittest
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, square_scene, temporary_folder
+from samples import SIZE, pixels, scene_of, temporary_folder
 
 SECONDS = 60  # a child that hangs is ended by its alarm
 
@@ -35,19 +36,19 @@ def status_of_child(body):
 
 def render_into(scene, queue):
     signal.alarm(SECONDS)
-    queue.put(scene.render(size=SIZE).rgb)
+    queue.put(pixels(scene))
 
 
 class Fork(unittest.TestCase):
     def setUp(self):
         self.scene = whit.Scene("orrery", moves=True)
-        self.expected = self.scene.render(size=SIZE).rgb.copy()
+        self.expected = pixels(self.scene).copy()
 
     def in_child(self, body):
         self.assertEqual(status_of_child(body), 0)
 
     def render(self):
-        np.testing.assert_array_equal(self.scene.render(size=SIZE).rgb, self.expected)
+        assert_array_equal(pixels(self.scene), self.expected)
 
     def test_a_child_renders(self):
         self.in_child(self.render)
@@ -58,15 +59,15 @@ class Fork(unittest.TestCase):
 
     def test_a_child_builds(self):
         self.scene.set_time(2)
-        later = self.scene.render(size=SIZE).rgb.copy()
+        later = pixels(self.scene).copy()
         self.scene.set_time(0)
 
         def build():
             self.scene.set_time(2)
-            np.testing.assert_array_equal(self.scene.render(size=SIZE).rgb, later)
+            assert_array_equal(pixels(self.scene), later)
             other = whit.Scene("orrery", moves=True)
-            np.testing.assert_array_equal(other.render(size=SIZE).rgb, self.expected)
-            whit.Scene(square_scene()).render(size=SIZE)
+            assert_array_equal(pixels(other), self.expected)
+            scene_of().render(size=SIZE)
             del other, self.scene
 
         self.in_child(build)
@@ -76,9 +77,9 @@ class Fork(unittest.TestCase):
         expected = self.scene.closest(origins, -origins).t
 
         def ask():
-            np.testing.assert_array_equal(self.scene.closest(origins, -origins).t, expected)
+            assert_array_equal(self.scene.closest(origins, -origins).t, expected)
             other = whit.Scene("orrery", moves=True)
-            np.testing.assert_array_equal(other.closest(origins, -origins).t, expected)
+            assert_array_equal(other.closest(origins, -origins).t, expected)
 
         self.assertTrue(np.isfinite(expected).any())
         self.in_child(ask)
@@ -95,13 +96,13 @@ class Fork(unittest.TestCase):
 
         def make():
             scenes.append(whit.Scene("whitted"))
-            scenes.append(scenes[0].render(size=SIZE).rgb)
+            scenes.append(pixels(scenes[0]))
 
         thread = threading.Thread(target=make)
         thread.start()
         thread.join()
         scene, expected = scenes
-        self.in_child(lambda: np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected))
+        self.in_child(lambda: assert_array_equal(pixels(scene), expected))
 
     def test_pictures_are_written(self):
         with temporary_folder():
@@ -164,7 +165,7 @@ class Fork(unittest.TestCase):
         def in_child():
             self.render()
             with self.assertRaisesRegex(whit.Error, "forked while another thread built"):
-                whit.Scene(square_scene()).render(size=SIZE)
+                scene_of().render(size=SIZE)
 
         try:
             self.assertTrue(begun.is_set())
@@ -221,7 +222,7 @@ class Fork(unittest.TestCase):
             for process in processes:
                 process.start()
             for process in processes:
-                np.testing.assert_array_equal(queue.get(timeout=SECONDS), self.expected)
+                assert_array_equal(queue.get(timeout=SECONDS), self.expected)
             for process in processes:
                 process.join()
                 self.assertEqual(process.exitcode, 0)

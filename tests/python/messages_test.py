@@ -9,7 +9,7 @@ import unittest
 import warnings
 
 import whit
-from samples import SIZE, square_scene, temporary_folder
+from samples import SIZE, scene_of, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
@@ -114,7 +114,7 @@ class Messages(unittest.TestCase):
             for light in ({"lights": [{"position": [0, 3, 0], "intensity": 1}]},
                           {**dark, "sky": {"color": 1}}, {**dark, "ambient": {"color": 0.5}},
                           {**dark, "materials": {"red": {"emission": 1}}}):
-                self.assertEqual(whit.Scene(square_scene(**light)).warnings, [])
+                self.assertEqual(scene_of(**light).warnings, [])
 
     def test_files_outside_and_strict(self):
         with temporary_folder():

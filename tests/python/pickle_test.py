@@ -8,9 +8,10 @@ import signal
 import unittest
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, square, square_scene, temporary_folder
+from samples import SIZE, pixels, scene_of, square, square_scene, temporary_folder
 
 SECONDS = 60  # a child that hangs is ended by its alarm
 
@@ -26,7 +27,7 @@ def restored(thing):
 
 class Pickles(unittest.TestCase):
     def assert_same(self, one, other):
-        np.testing.assert_array_equal(one.render(size=SIZE).rgb, other.render(size=SIZE).rgb)
+        assert_array_equal(pixels(one), pixels(other))
         self.assertEqual(one.name, other.name)
 
     def test_scenes(self):
@@ -44,19 +45,19 @@ class Pickles(unittest.TestCase):
 
     def test_changes_are_kept(self):
         scene = whit.Scene("orrery", moves=True, movable=["/scene/0"])
-        before = scene.render(size=SIZE).rgb.copy()
+        before = pixels(scene).copy()
         scene.set("/lights/0/intensity", 5)
         scene.set("/lights/-", {"position": [0, 9, 0], "intensity": 30})
         scene.set("/lights/0/intensity", 7)
         scene.set("/lights/1/intensity", 31)
         scene.set_time(2.5)
         scene.set_transform("/scene/0", np.diag([1, 1.5, 1, 1]))
-        self.assertTrue((scene.render(size=SIZE).rgb != before).any())
+        self.assertTrue((pixels(scene) != before).any())
         other = restored(scene)
         self.assert_same(scene, other)
         other.set("/lights/0/intensity", 50)  # the first one is not changed by it
         self.assert_same(scene, restored(scene))
-        self.assertTrue((scene.render(size=SIZE).rgb != other.render(size=SIZE).rgb).any())
+        self.assertTrue((pixels(scene) != pixels(other)).any())
 
     def test_a_file_is_found_from_another_folder(self):
         with temporary_folder():
@@ -77,11 +78,11 @@ class Pickles(unittest.TestCase):
                             {"background": "transparent", "exposure": 1.5}):
                 picture = scene.render(size=SIZE, **options)
                 for other in (restored(picture), copy.copy(picture), copy.deepcopy(picture)):
-                    np.testing.assert_array_equal(picture.rgb, other.rgb)
-                    np.testing.assert_array_equal(picture.srgb, other.srgb)
+                    assert_array_equal(picture.rgb, other.rgb)
+                    assert_array_equal(picture.srgb, other.srgb)
                     self.assertEqual(list(picture.channels), list(other.channels))
                     for name, values in picture.channels.items():
-                        np.testing.assert_array_equal(values, other[name])
+                        assert_array_equal(values, other[name])
                         self.assertEqual(values.dtype, other[name].dtype)
                     for name in ("width", "height", "left", "top", "statistics"):
                         self.assertEqual(getattr(picture, name), getattr(other, name))
@@ -108,7 +109,7 @@ class Pickles(unittest.TestCase):
                              (type(error), str(error), vars(error)))
 
     def test_spawned_processes(self):
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
         scene.set("/lights/0/intensity", 20)
         context = multiprocessing.get_context("spawn")
         queue = context.Queue()
@@ -117,7 +118,7 @@ class Pickles(unittest.TestCase):
         picture = queue.get(timeout=SECONDS)
         process.join()
         self.assertEqual(process.exitcode, 0)
-        np.testing.assert_array_equal(picture.rgb, scene.render(size=SIZE).rgb)
+        assert_array_equal(picture.rgb, pixels(scene))
 
 
 if __name__ == "__main__":

@@ -5,9 +5,10 @@ import threading
 import unittest
 
 import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import square_scene
+from samples import scene_of
 
 DOWN = np.array([0.0, -1.0, 0.0])
 
@@ -20,23 +21,23 @@ def grid(rows, columns):
 
 class Rays(unittest.TestCase):
     def setUp(self):
-        self.scene = whit.Scene(square_scene())
+        self.scene = scene_of()
 
     def test_shapes_and_values(self):
         points = grid(4, 5)
         hits = self.scene.closest(points, DOWN)
         inside = (abs(points[..., 0]) < 1) & (abs(points[..., 2]) < 1)
-        np.testing.assert_array_equal(hits.hit, inside)
-        np.testing.assert_array_equal(hits.t, np.where(inside, 2.0, np.inf))
-        np.testing.assert_allclose(hits.point[inside], points[inside] * (1, 0, 1), atol=1e-15)
+        assert_array_equal(hits.hit, inside)
+        assert_array_equal(hits.t, np.where(inside, 2.0, np.inf))
+        assert_allclose(hits.point[inside], points[inside] * (1, 0, 1), atol=1e-15)
         self.assertEqual(hits.geometric_normal.shape, (4, 5, 3))
-        np.testing.assert_array_equal(hits.geometric_normal[inside] * hits.side[inside, None],
-                                      np.tile([0, 1, 0], (inside.sum(), 1)))
+        assert_array_equal(hits.geometric_normal[inside] * hits.side[inside, None],
+                           np.tile([0, 1, 0], (inside.sum(), 1)))
         self.assertTrue((hits.object[inside] == 0).all())
         self.assertTrue((hits.object[~inside] == 0xffffffff).all())
-        np.testing.assert_array_equal(self.scene.occluded(points, DOWN), inside)
+        assert_array_equal(self.scene.occluded(points, DOWN), inside)
         everything = self.scene.all_hits(points, DOWN)
-        np.testing.assert_array_equal(np.diff(everything.offsets.astype(int)), inside.ravel())
+        assert_array_equal(np.diff(everything.offsets.astype(int)), inside.ravel())
         self.assertEqual(everything.point.shape, (inside.sum(), 3))
 
     def test_one_ray(self):
@@ -44,7 +45,7 @@ class Rays(unittest.TestCase):
         hits = self.scene.closest([0.25, 2, 0], [0, -1, 0])
         self.assertEqual((hits.t.shape, hits.point.shape, hits.uv.shape), ((), (3,), (2,)))
         self.assertEqual((hits.t, hits.side, bool(hits.hit)), (2, 1, True))
-        np.testing.assert_allclose(hits.point, [0.25, 0, 0], atol=1e-15)
+        assert_allclose(hits.point, [0.25, 0, 0], atol=1e-15)
         self.assertEqual(repr(hits), "<whit.Hits: 1 of shape ()>")
         self.assertFalse(self.scene.closest([3, 2, 0], [0, -1, 0]).hit)
 
@@ -70,9 +71,9 @@ class Rays(unittest.TestCase):
         for kind in (np.float64, np.float16, list):
             same = points.tolist() if kind is list else points.astype(kind)
             tolerance = 1e-2 if kind is np.float16 else 0
-            np.testing.assert_allclose(self.scene.closest(same, DOWN).t, expected, tolerance)
+            assert_allclose(self.scene.closest(same, DOWN).t, expected, tolerance)
         strided = np.asfortranarray(points)[::-1]
-        np.testing.assert_array_equal(self.scene.closest(strided, DOWN).t, expected[::-1])
+        assert_array_equal(self.scene.closest(strided, DOWN).t, expected[::-1])
 
     def test_limits(self):
         points = grid(3, 3)
@@ -88,7 +89,7 @@ class Rays(unittest.TestCase):
         self.assertFalse(seen.any())
         self.assertEqual(certain.shape, (2,))
         open_ = self.scene.ambient_occlusion(points, [0, 1, 0], 10, 16)
-        np.testing.assert_array_equal(open_, [1, 1])
+        assert_array_equal(open_, [1, 1])
 
     def test_nothing_to_ask(self):
         hits = self.scene.closest(np.empty((0, 3)), np.empty((0, 3)))
@@ -128,7 +129,7 @@ class Rays(unittest.TestCase):
         for thread in threads:
             thread.join()
         for t in found:
-            np.testing.assert_array_equal(t, expected)
+            assert_array_equal(t, expected)
 
 
 if __name__ == "__main__":

@@ -50,3 +50,12 @@ def square_scene(mesh=None, **members):
         "scene": [{"mesh": mesh or square(), "material": "red"}],
         **members,
     }
+
+
+def scene_of(mesh=None, **members):
+    return whit.Scene(square_scene(mesh, **members))
+
+
+def pixels(scene):
+    """The picture of a scene in the size that tests use, as linear colors."""
+    return scene.render(size=SIZE).rgb

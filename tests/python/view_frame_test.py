@@ -10,7 +10,7 @@ import time
 import unittest
 
 import whit
-from samples import square_scene
+from samples import scene_of
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "serve"))
 
@@ -39,7 +39,7 @@ class Frames(unittest.TestCase):
         return server.server_address[1]
 
     def test_a_notebook_shows_it_in_a_frame(self):
-        view = whit.Scene(square_scene()).view(width=640, height=400)
+        view = scene_of().view(width=640, height=400)
         other_host = self.serve_page_on("127.0.0.2", view)
         notebook = self.serve_page_on("127.0.0.1", view)
         browser.size(800, 600)

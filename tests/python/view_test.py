@@ -14,7 +14,7 @@ import urllib.request
 import numpy as np
 
 import whit
-from samples import square_scene
+from samples import scene_of, square_scene
 
 SIZE = (64, 40)
 
@@ -56,7 +56,7 @@ class Views(unittest.TestCase):
         self.assertEqual(pixels, chunks(expected)[1])
 
     def test_answers_with_its_token(self):
-        view = whit.Scene(square_scene()).view(size=SIZE)
+        view = scene_of().view(size=SIZE)
         self.assertRegex(view.url, r"^http://127\.0\.0\.1:\d+/[0-9a-f]{32}/$")
         self.assertEqual(status(view.url), 200)
         root = view.url[:-33]
@@ -67,7 +67,7 @@ class Views(unittest.TestCase):
         self.assertIn(f'src="{view.url}"', view._repr_html_())
 
     def test_close_ends_it(self):
-        view = whit.Scene(square_scene()).view(size=SIZE)
+        view = scene_of().view(size=SIZE)
         view.close()
         view.close()
         self.assertEqual(status(view.url), 0)
@@ -113,7 +113,7 @@ class Views(unittest.TestCase):
         matrix[1, 3] = 0.5
         scene.set_transform("/scene/0", matrix)
         self.same_picture(scene.view(size=SIZE), scene)
-        self.same_picture(before, whit.Scene(square_scene()))
+        self.same_picture(before, scene_of())
         orrery = whit.Scene("orrery", moves=True)
         orrery.set_time(3.25)
         self.same_picture(orrery.view(size=SIZE), orrery)
@@ -122,7 +122,7 @@ class Views(unittest.TestCase):
             self.same_picture(start.view(size=SIZE), start)
 
     def test_made_scenes_are_not_read_again(self):
-        view = whit.Scene(square_scene()).view(size=SIZE)
+        view = scene_of().view(size=SIZE)
         say(view, "reload")
         with urllib.request.urlopen(view.url + "stream", timeout=60) as stream:
             wanted = {b"cannot be read again", b"no command renders it"}
@@ -137,7 +137,7 @@ class Views(unittest.TestCase):
         self.assertEqual(wanted, set())
 
     def test_refuses_what_it_cannot_show(self):
-        scene = whit.Scene(square_scene())
+        scene = scene_of()
         for options, error, words in (
                 ({"crop": (0, 0, 8, 8)}, whit.Error, "crop"),
                 ({"mode": "reference"}, whit.Error, "reference"),
