@@ -188,6 +188,20 @@ TEST_F(Serving, OtherHostsAndOriginsAreRefused) {
   EXPECT_EQ(post("fit", {{"Origin", "http://localhost:1"}}), 403);
 }
 
+// Who sees one of these sentences must know which of the two has to be changed.
+TEST_F(Serving, ARefusedOriginIsNotCalledAWrongToken) {
+  const auto adviceOn = [this](const std::string& path, const httplib::Headers& headers) {
+    const auto answer = client().Get(path, headers);
+    return answer ? answer->body : "";
+  };
+
+  const std::string origin = adviceOn(root_, {{"Origin", "http://evil.example"}});
+  EXPECT_NE(origin.find("another site"), std::string::npos) << origin;
+  EXPECT_EQ(origin.find("token"), std::string::npos) << origin;
+  const std::string token = adviceOn("/", {});
+  EXPECT_NE(token.find("lacks the token"), std::string::npos) << token;
+}
+
 TEST_F(Serving, OtherMethodsAndEncodingsAreRefused) {
   EXPECT_EQ(client().Put(root_ + "input", "fit", "text/plain")->status, 405);
   EXPECT_EQ(client().Delete(root_)->status, 405);

@@ -85,10 +85,20 @@ class ThreadsOnDemand : public httplib::TaskQueue {
   bool ends_ = false;
 };
 
-// What a user reads whose request was refused with this status.
-const char* adviceOn(int status) {
+// A request may be refused because another site's page sent it.
+bool isOtherOrigin(const httplib::Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  return !origin.empty() && origin != "http://" + request.get_header_value("Host");
+}
+
+// Returns what a user reads whose request was refused with this status.
+const char* adviceOn(int status, const httplib::Request& request) {
   switch (status) {
     case 403:
+      if (isOtherOrigin(request)) {
+        return "the page of another site has sent this request, or a proxy has changed its Host: "
+               "open the address that whit serve has printed, and forward its port over ssh";
+      }
       return "this address lacks the token of the server, which is another one each time it "
              "starts: open the address that whit serve has printed last";
     case 421:
@@ -324,7 +334,7 @@ class Server::Http : public httplib::Server {
         current->trusted = true;
         return HandlerResponse::Unhandled;
       }
-      response.set_content(std::string(adviceOn(response.status)) + "\n", "text/plain");
+      response.set_content(std::string(adviceOn(response.status, request)) + "\n", "text/plain");
       return HandlerResponse::Handled;
     });
 
@@ -400,10 +410,8 @@ class Server::Http : public httplib::Server {
   int refusalOf(const httplib::Request& request) const {
     // The Host header stops DNS rebinding, and the Origin header stops requests by other sites'
     // pages.
-    const std::string host = request.get_header_value("Host");
-    const std::string origin = request.get_header_value("Origin");
-    if (!isOwnHost(host, server_.options_.bind)) return 421;
-    if (!origin.empty() && origin != "http://" + host) return 403;
+    if (!isOwnHost(request.get_header_value("Host"), server_.options_.bind)) return 421;
+    if (isOtherOrigin(request)) return 403;
 
     const std::string_view path = request.path;
     constexpr std::size_t kTokenEnd = 33;  // "/" and 32 digits
