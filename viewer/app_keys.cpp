@@ -76,11 +76,9 @@ void App::act(const std::string& line) try {
 void App::turn(Over over) { shown_.over = shown_.over == over ? Over::nothing : over; }
 
 void App::close() {
-  if (!session_.state().error.empty()) {
-    session_.act("dismiss");
-  } else if (session_.isReading()) {
-    session_.giveUpReading();
-  } else if (std::exchange(savesPicture_, false)) {
+  if (session_.close()) return;
+
+  if (std::exchange(savesPicture_, false)) {
     session_.say("the picture is not saved");
   } else if (shown_.over != Over::nothing) {
     shown_.over = Over::nothing;

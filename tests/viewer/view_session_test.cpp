@@ -133,6 +133,69 @@ TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
   EXPECT_EQ(state().error, "");
 }
 
+// The page of a browser has no other way to end a long reading.
+TEST_F(Sessions, CloseDismissesAnErrorAndThenGivesUpReading) {
+  session_->open("landscape?triangles=2000000");
+  ASSERT_TRUE(session_->isReading());
+  session_->act("set depth 1000");
+  ASSERT_NE(state().error, "");
+
+  session_->act("close");
+  EXPECT_EQ(state().error, "");
+  EXPECT_TRUE(session_->isReading());
+  session_->act("close");
+  EXPECT_FALSE(session_->isReading());
+  EXPECT_EQ(state().sceneName, options_.scene);
+}
+
+// A triangle that two animations move.
+std::string writeTwoAnimations(const std::string& file) {
+  const auto animation = [](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "samplers": [{"input": 1, "output": 2}],
+      "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]})";
+  };
+
+  // Two times and two translations follow the three positions.
+  std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+      "min": [0, 0, 0], "max": [1, 1, 0]},
+      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR",
+      "min": [0], "max": [1]},
+      {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36,
+      "byteLength": 8}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}],
+    "buffers": [{"byteLength": 68, "uri": "data:application/octet-stream;base64,)"
+                      << "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAA"
+                         "AAAAIA/AAAAAAAAAAA="
+                      << R"("}],
+    "animations": [)" << animation("walk")
+                      << ", " << animation("run") << "]}";
+  return file;
+}
+
+TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
+  options_.common.load.instant.plays = true;
+  options_.scene = writeTwoAnimations(folder_ / "m.gltf");
+  session_ = std::make_unique<Session>(
+      options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
+  session_->setWindow({48, 32}, 32, 1);
+  session_->act("play");
+  settle();
+  ASSERT_EQ(state().timeline.animation, "walk");
+
+  // Reading that is given up leaves the bar as it was.
+  session_->act("animation run");
+  session_->act("close");
+  settle();
+  EXPECT_EQ(state().timeline.animation, "walk");
+
+  act("animation run");
+  EXPECT_EQ(state().error, "");
+  EXPECT_EQ(state().timeline.animation, "run");
+  EXPECT_EQ(state().timeline.seconds, 0);
+}
+
 // The views of a debug view have another command, because whit render does not make them.
 TEST_F(Sessions, TheCommandMakesWhatIsShown) {
   EXPECT_EQ(session_->command().rfind("whit render ", 0), 0u);

@@ -77,6 +77,18 @@ TEST_F(Reading, IsGivenUp) {
   EXPECT_FALSE(reader.take());
 }
 
+TEST_F(Reading, ASceneThatWasReadIsFreedWhenItIsGivenUp) {
+  SceneReader reader(common_);
+  reader.read({name_, {}, {}}, request_.options);
+  reader.giveUp();
+
+  for (int i = 0; i < 60'000 && reader.holds(); ++i) {
+    EXPECT_FALSE(reader.take());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_FALSE(reader.holds());
+}
+
 // Returns rows of a picture, from the top or, with a negative number, from the bottom.
 std::vector<std::uint8_t> rows(const RawImage& image, int count) {
   const auto size = static_cast<std::ptrdiff_t>(std::abs(count)) * image.width * image.channels;

@@ -270,8 +270,7 @@ Json ServedSession::tablesJson() const {
 
   // The page lists what it can do, and knows the line of each key. Some verbs without an action are
   // done by the page itself.
-  constexpr std::array<std::string_view, 6> kOfPage{"cameras", "lines", "copy",
-                                                    "panel",   "keys",  "close"};
+  constexpr std::array<std::string_view, 5> kOfPage{"cameras", "lines", "copy", "panel", "keys"};
   for (const view::Verb& verb : view::verbs()) {
     const bool own = std::ranges::find(kOfPage, verb.name) != kOfPage.end();
     if (verb.keys.empty() || !(verb.act || own)) continue;

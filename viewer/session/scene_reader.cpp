@@ -42,7 +42,13 @@ void SceneReader::giveUp() {
 }
 
 std::unique_ptr<Engine> SceneReader::take() {
-  if (!busy() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+  if (!holds() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return nullptr;
+  }
+
+  // A scene that was read just before it was given up would stay in memory.
+  if (progress_->givenUp) {
+    reading_ = {};
     return nullptr;
   }
   return reading_.get();

@@ -34,10 +34,13 @@ class SceneReader {
   // Begins to read in place of what was being read.
   void read(const SceneChoice& choice, const RenderOptions& options);
   void giveUp();
-  // Hands over the scene once it is read, or throws what has kept it from being read.
+  // Hands over the scene once it is read, or throws what has kept it from being read. Frees a
+  // scene that was given up.
   std::unique_ptr<Engine> take();
 
-  bool busy() const { return reading_.valid() && !progress_->givenUp; }
+  bool busy() const { return holds() && !progress_->givenUp; }
+  // A scene is being read or was read, and take() has neither handed it over nor freed it.
+  bool holds() const { return reading_.valid(); }
   // "reading NAME" and its progress; empty: nothing is being read.
   std::string text() const { return busy() ? text_ + " " + progress_->text() : ""; }
 

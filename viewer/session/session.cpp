@@ -596,13 +596,21 @@ void Session::load(const SceneChoice& choice) {
   state_.error.clear();
   state_.message.clear();
   readEdits_ = edits_;
+  readAnimation_ = choice.animation;
   reader_.read(choice, state_.options);
 }
 
-void Session::giveUpReading() {
+bool Session::close() {
+  if (!state_.error.empty()) {
+    state_.error.clear();
+    return true;
+  }
+  if (!reader_.busy()) return false;
+
   reader_.giveUp();
   opening_.clear();
   say("the scene stays as it is");
+  return true;
 }
 
 void Session::showReadScene() {
@@ -622,6 +630,11 @@ void Session::showReadScene() {
 }
 
 void Session::reload() {
+  const bool isOnItsWay = reader_.busy() || coming_;
+  readAgain(isOnItsWay ? readAnimation_ : state_.timeline.animation);
+}
+
+void Session::readAgain(const std::string& animation) {
   // While another scene is on its way, state_.sceneName is still that of the old one.
   std::string next = opening_;
   if (next.empty() && coming_) next = comingName_;
@@ -638,7 +651,7 @@ void Session::reload() {
   const EditedScene& edited = state_.edited;
   const bool isEdited =
       edited.settings != readSettings_ || edited.givenSky != options_.common.load.sky;
-  load({state_.sceneName, edited.settings, state_.timeline.animation,
+  load({state_.sceneName, edited.settings, animation,
         isEdited ? std::optional(edited.givenSky) : std::nullopt});
 }
 
@@ -652,13 +665,13 @@ void Session::setTime(double seconds) {
 }
 
 void Session::chooseAnimation(const std::string& name) {
-  Timeline& timeline = state_.timeline;
+  const Timeline& timeline = state_.timeline;
   if (std::ranges::find(timeline.animations, name) == timeline.animations.end()) {
     throwUsage("no animation is called '" + name + "'");
   }
-  timeline.animation = name;
-  timeline.seconds = 0;
-  reload();
+
+  // The time bar follows when the animation has been read.
+  readAgain(name);
 }
 
 // Takes the options of the scene that was just read where the user has not changed them. The
@@ -689,9 +702,12 @@ void Session::takeScene(bool elsewhere) {
     past_.back() = present();
     if (scene().cameraPath.empty()) pathTime_.reset();
     const Timeline before = state_.timeline;
-    state_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
-    state_.timeline.seconds = std::min(before.seconds, state_.timeline.length);
-    state_.timeline.playing = state_.timeline.there && before.playing;
+    Timeline& timeline = state_.timeline;
+    timeline = timelineOf(scene(), {std::nullopt, state_.scene->load.instant.animation});
+    // Another animation begins at its start.
+    const bool goesOn = timeline.animation == before.animation;
+    timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;
+    timeline.playing = timeline.there && before.playing;
     say("the scene was read again");
     return;
   }

@@ -136,7 +136,9 @@ class Session {
   // The message, what is being read or traced, and why the picture is black; empty: nothing.
   std::string notice() const;
   bool isReading() const { return reader_.busy(); }
-  void giveUpReading();  // the scene stays as it is
+  // Closes the error, or else gives up what is read; the scene stays as it is. Returns false if
+  // there is neither.
+  bool close();
 
   // The picture is shown in so many pixels, and in a window that is so high in the units of drags.
   // So many units of a drag make one point.
@@ -225,6 +227,7 @@ class Session {
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void followRays();
   void watchSceneFile();
+  void readAgain(const std::string& animation);
   void showReadScene();
   void takeOptions(const Scene& last, bool elsewhere);
   bool followScene();
@@ -253,6 +256,7 @@ class Session {
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
   bool selects_ = false;                      // the next answer selects a material and a light
 
+  std::string readAnimation_;                // animation of the scene that was read last
   std::string opening_;                      // name of another scene while it is read
   std::shared_ptr<const OpenScene> coming_;  // was read, and no frame shows it yet; or null
   std::string comingName_;                   // its name; empty: the scene shown was read again

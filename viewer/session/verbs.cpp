@@ -97,7 +97,8 @@ std::span<const Verb> Session::verbs() {
       {"full-screen", "F11", "full screen"},
       {"close", "Esc",
        "give up what is read or awaited, close what is open; a window then quits, but asks before "
-       "edits are lost"},
+       "edits are lost",
+       [](S s, M) { s.close(); }},
 
       // These have controls instead of keys.
       {"time", "", "", [](S s, M m) { s.setTime(m.numbers[0]); }, {1, 0, 1e9}},
