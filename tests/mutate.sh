@@ -340,7 +340,7 @@ mutations() {
   plant kept-by-caches viewer/serve/server.cpp \
     '{"Cache-Control", "no-store"}' '{"Cache-Control", "max-age=3600"}'
   plant any-http-origin viewer/serve/server.cpp \
-    'origin != "http://" + host' '!origin.starts_with("http://")'
+    'origin != "http://" + request.get_header_value("Host")' '!origin.starts_with("http://")'
   plant no-bound-of-messages viewer/serve/served_session.cpp \
     'if (messages_.size() + messages.size() > kMostMessages) return false;' ''
   plant acknowledges-one-alone viewer/serve/picture_stream.cpp \
