@@ -261,12 +261,19 @@ bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   return codes && energy;
 }
 
+bool channelsDiffer(const std::vector<ChannelDifference>& channels) {
+  return std::ranges::any_of(channels,
+                             [](const ChannelDifference& c) { return c.difference.differing > 0; });
+}
+
 // Sums up the comparison for people. A code is a step of 8-bit sRGB.
 std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
   const ImageDifference& d = c.difference;
   std::string text;
   if (d.nonFinite > 0) {
     text = "there are pixels that are not finite";
+  } else if (d.rmse == 0 && channelsDiffer(c.channels)) {
+    text = "the colors are the same, bit for bit, but channels differ";
   } else if (d.rmse == 0) {
     text = "the pictures are the same, bit for bit";
   } else if (d.maxCode == 0) {

@@ -249,6 +249,20 @@ TEST_F(Program, EveryExitStatusHasACause) {
   EXPECT_EQ(known, met);
 }
 
+// Without light all colors are black, but from another place the depths are others.
+TEST_F(Program, CompareSaysThatOnlyChannelsDiffer) {
+  const std::string a = folder_ / "a.exr", b = folder_ / "b.exr";
+  const Words black{"render",     tiny_,  "--set", "/lights/0/intensity=[0, 0, 0]",
+                    "--channels", "depth"};
+  succeed(joined(black, {"--eye", "0,0,5", "-o", a}));
+  succeed(joined(black, {"--eye", "0,0,6", "-o", b}));
+
+  const Outcome compared = succeed({"compare", a, b, "--tolerance", "0"});
+  EXPECT_TRUE(compared.out.ends_with(
+      "verdict: the colors are the same, bit for bit, but channels differ; passed\n"))
+      << compared.out;
+}
+
 // Packets flush numbers below the least normal one to zero, and the reference keeps them: a scene
 // this dark loses all of its light, and no 8-bit code shows it.
 TEST_F(Program, CompareFailsIfLightIsMissing) {
