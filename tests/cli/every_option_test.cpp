@@ -192,7 +192,7 @@ constexpr PictureOption kPictureOptions[] = {
     {"bend", "off", "", "image_hash"},
     {"threads", "1", "", "threads"},
     {"packet", "16", "--packet 8", "packet lanes_filled"},
-    {"simd", "scalar", "--packet 8", "simd"},
+    {"simd", "sse4", "--packet 8", "simd"},
     {"mode", "reference", "", "image_hash mode"},
     {"batch", "frame", "", "batch"},
     {"robust", "off", "", "robust"},
