@@ -133,11 +133,12 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
 }
 
 // The bar of the time is there without a panel. A click on its button pauses, and then the picture
-// gets sharp.
+// gets sharp. Dear ImGui 1.90 takes a click of a script only where the pointer has rested.
 TEST_F(Viewer, TheTimeBarPauses) {
   writeMovingScene(folder_);
   const cli::Outcome outcome =
-      play("asked\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n", {"--size", "400x300"});
+      play("asked\npoint 135 272\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n",
+           {"--size", "400x300"});
   EXPECT_NE(outcome.out.find(" --time "), std::string::npos) << outcome.out;
 }
 

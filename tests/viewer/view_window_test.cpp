@@ -241,11 +241,13 @@ TEST_F(Viewer, EscapeClosesWhatIsOpen) {
   EXPECT_FALSE(fs::exists(folder_ / "never.png"));
 }
 
-// The list of cameras is at the right; its second entry is clicked on.
+// The list of cameras is at the right; its second entry is clicked on. Dear ImGui 1.90 takes a
+// click of a script only where the pointer has rested.
 TEST_F(Viewer, CamerasAreChosenFromTheirList) {
-  const cli::Outcome outcome =
-      play("asked\nkey L\nwait 5 frames\nclick 440 61\nwait 3 frames\nwait sharp\nkey C\n",
-           {"--size", "500x300"});
+  const cli::Outcome outcome = play(
+      "asked\nkey L\nwait 5 frames\npoint 440 61\nwait 20 frames\nclick 440 61\n"
+      "wait 3 frames\nwait sharp\nkey C\n",
+      {"--size", "500x300"});
   EXPECT_NE(outcome.out.find(" --camera=side"), std::string::npos) << outcome.out;
 }
 
