@@ -33,7 +33,10 @@ class TreeObserver : public StageObserver {
         shadows_.assign(chunk.n, {});
         return;
       case Stage::writeEmittedAndReflectiveAmbient:
-        for (const auto i : indices(chunk.n)) node(chunk, i).emitted = at(chunk.radiance.rgb, i);
+        for (const auto i : indices(chunk.n)) {
+          node(chunk, i).emitted = at(chunk.radiance.rgb, i);
+          node(chunk, i).weight = at(chunk.rays.weight, i);  // fog has dimmed the ray
+        }
         break;
       case Stage::checkShadows:
         for (const auto k : indices(chunk.shadowCount)) recordShadowRay(chunk, k);

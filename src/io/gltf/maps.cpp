@@ -75,10 +75,12 @@ struct Stretched {
   int width, height;
 
   Rgb color(std::size_t x, std::size_t y) const {  // linear
-    return raw ? linearPixel(*raw, indexOf(x, y)) : Rgb(1.0f);
+    if (!raw) return Rgb(1.0f);
+    return linearPixel(*raw, indexOf(x, y));
   }
   float value(std::size_t x, std::size_t y, std::size_t channel) const {  // of valuesAt()
-    return raw ? valuesAt(*raw, indexOf(x, y))[channel] : 1.0f;
+    if (!raw) return 1.0f;
+    return valuesAt(*raw, indexOf(x, y))[channel];
   }
 
  private:
