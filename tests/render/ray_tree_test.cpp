@@ -33,10 +33,7 @@ Rgb pixelOf(const RayTree& tree) {
   return Rgb(sum / static_cast<double>(tree.primaries.size()));
 }
 
-class ShippedRayTree : public testing::TestWithParam<const char*> {};
-
-TEST_P(ShippedRayTree, SumsUpToThePixel) {
-  const Scene scene = load(GetParam());
+void expectSumsOfPixels(const Scene& scene) {
   RenderOptions options;
   options.size = ImageSize{60, 40};
   options.depth = 10;
@@ -57,6 +54,18 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
               reference.image.at(x, y))
         << x << "," << y;
   }
+}
+
+class ShippedRayTree : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedRayTree, SumsUpToThePixel) { expectSumsOfPixels(load(GetParam())); }
+
+// Fog dims rays after they were traced.
+TEST(RayTreeInFog, SumsUpToThePixel) {
+  Scene scene = load("whitted");
+  scene.fog = {Rgb(0.05f), Rgb(0.5f)};
+  scene.effects = scene.effects.with(Effect::fog);
+  expectSumsOfPixels(scene);
 }
 
 class AdaptiveRayTree : public testing::TestWithParam<const char*> {};
