@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "io/load_scene.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "scene/members.h"
 #include "viewer/panel.h"
 

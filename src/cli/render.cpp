@@ -25,7 +25,7 @@
 #include "inspect/budget.h"
 #include "io/files.h"
 #include "io/image/image_file.h"
-#include "make/model_view.h"
+#include "make/turntable.h"
 #include "output/digest.h"
 #include "output/film_pipe.h"
 #include "output/image_output.h"

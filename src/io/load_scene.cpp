@@ -12,8 +12,10 @@
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "make/ground_shadow.h"
+#include "make/light_level.h"
 #include "make/model_view.h"
 #include "make/shape.h"
+#include "make/studio_sky.h"
 #include "scene/generation_limit.h"
 
 namespace whit {

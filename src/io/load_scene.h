@@ -32,7 +32,7 @@ struct LoadOptions {
   // than usual it shows the model; and "ground": true for a soft shadow below the model.
   std::vector<std::string> settings;
 
-  // Replaces the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular image.
+  // Replaces the scene's own sky: "none", "studio" (make/studio_sky.h) or an equirectangular image.
   // If it is empty, a scene keeps its sky, and a model, which has none, gets the studio.
   std::string sky;
 

@@ -1,5 +1,4 @@
-// How a model is shown: from which side or from where in a room, how bright its light is, how it
-// turns on a turntable, and the sky of the studio around it.
+// How a model is shown: from which side, or from where in a room.
 #include "make/model_view.h"
 
 #include <algorithm>
@@ -10,15 +9,11 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
-#include "core/affine.h"
 #include "core/index.h"
 #include "core/vec3.h"
-#include "make/patterns/noise.h"
 #include "make/placed_triangles.h"
 
 namespace whit {
@@ -230,10 +225,9 @@ struct Framing {
 };
 
 Framing framingOf(const Vec3d& side, const SceneDescription& scene, const Camera& camera) {
-  constexpr double kMargin = 1.06;
   const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side));
   return {side, right, cross(side, right),
-          std::tan(camera.fov * (std::numbers::pi / 360)) / kMargin,
+          std::tan(camera.fov * (std::numbers::pi / 360)) / kModelMargin,
           static_cast<double>(scene.width) / scene.height};
 }
 
@@ -311,106 +305,6 @@ Vec3d atAzimuth(const SceneDescription& scene, const Vec3d& side) {
   return {across * std::sin(azimuth), side.y, across * std::cos(azimuth)};
 }
 
-// Returns the irradiance from the light at a point with this unit normal.
-double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
-  const Vec3d toLight = towards(light, point), direction = normalized(toLight);
-  const double cosine = std::max(0.0, dot(normal, direction));
-  if (light.kind == Light::Kind::directional) return luminance(light.intensity) * cosine;
-
-  // Irradiance falls with the squared distance, but grows no more within the light's radius.
-  const double radius{light.radius};
-  const double square = std::max(dot(toLight, toLight), radius * radius);
-  const double cone = light.kind == Light::Kind::spot ? coneOf(light).falloff(direction) : 1;
-  return square > 0 ? luminance(light.intensity) * cone * cosine / square : 0;
-}
-
-// Slices in which the outline of a model on a turntable is kept.
-constexpr std::size_t kSlices = 64;
-
-// The distance of the scene's outermost points from the axis, at each height.
-struct Outline {
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  std::array<double, kSlices> radius{};
-
-  std::size_t sliceOf(double y) const {
-    const double share = high > low ? (y - low) / (high - low) : 0;
-    return std::min(static_cast<std::size_t>(share * kSlices), kSlices - 1);
-  }
-  double begin(std::size_t slice) const {
-    return low + (high - low) * static_cast<double>(slice) / kSlices;
-  }
-};
-
-Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
-  Outline outline;
-  // The range of heights defines the slices, so it is found in a pass of its own.
-  forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
-    const Vec3d p = corner - center;
-    outline.low = std::min(outline.low, p.y);
-    outline.high = std::max(outline.high, p.y);
-  });
-
-  forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
-    const Vec3d p = corner - center;
-    double& radius = outline.radius[outline.sliceOf(p.y)];
-    radius = std::max(radius, std::hypot(p.x, p.z));
-  });
-  return outline;
-}
-
-// Returns the distance from the center at which an eye sees the whole circle of this radius and
-// height. `sine` is that of the eye's elevation, `half` half the picture's height at distance 1.
-double distanceFor(double radius, double y, double sine, double half, double aspect) {
-  constexpr int kAngles = 64;
-  const double cosine = std::sqrt(1 - sine * sine);
-
-  // The circle is sampled at kAngles points, each of which needs a distance of its own.
-  double distance = 0;
-  for (int i = 0; i < kAngles; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kAngles;
-    const double across = radius * std::sin(angle), along = radius * std::cos(angle);
-
-    // `up` lies in the plane of the picture, `near` points towards the eye.
-    const double up = y * cosine - along * sine, near = along * cosine + y * sine;
-    distance = std::max(distance, near + std::max(std::abs(across) / aspect, std::abs(up)) / half);
-  }
-  return distance;
-}
-
-// Size of the studio's image, and the radiance of its gradient.
-constexpr int kWidth = 256, kHeight = 128;
-constexpr double kZenith = 0.15, kHorizon = 0.20, kGround = 0.10;
-
-// A soft box of the studio. Angles are in degrees: the azimuth of its center from -z towards +x,
-// the elevation of its center, and half of its sides.
-struct SoftBox {
-  double azimuth, elevation, halfWidth, halfHeight, radiance;
-};
-// The first box is around the supplied light, the second beside it, the third behind the model.
-constexpr SoftBox kBoxes[] = {
-    {143, 48, 26, 17, 4.0}, {250, 40, 14, 20, 1.6}, {320, 44, 9, 20, 3.0}};
-constexpr double kSoftEdge = 7;  // degrees over which a box fades
-
-// Returns 1 within `half` of the middle, and 0 beyond the soft edge.
-double fade(double distance, double half) {
-  return procedural::smoothStep(0, 1, (half - distance) / kSoftEdge + 1);
-}
-
-double radianceAt(double azimuth, double elevation) {
-  const double sine = std::sin(elevation * std::numbers::pi / 180);
-  // The gradient runs from the horizon up to the zenith and down to the ground.
-  double radiance = kHorizon + ((sine < 0 ? kGround : kZenith) - kHorizon) * std::abs(sine);
-
-  for (const SoftBox& box : kBoxes) {
-    const double across = std::abs(std::remainder(azimuth - box.azimuth, 360.0));
-    // Azimuths are narrower near the zenith.
-    const double width = across * std::cos(box.elevation * std::numbers::pi / 180);
-    radiance += box.radiance * fade(width, box.halfWidth) *
-                fade(std::abs(elevation - box.elevation), box.halfHeight);
-  }
-  return radiance;
-}
-
 }  // namespace
 
 ModelView viewOf(const SceneDescription& scene) {
@@ -480,94 +374,6 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera) {
     sees = sees || (sidesBeyond(t[0]) & sidesBeyond(t[1]) & sidesBeyond(t[2])) == 0;
   });
   return sees;
-}
-
-double lightLevel(const SceneDescription& scene) {
-  constexpr std::uint64_t kMostTriangles = 20'000;
-
-  // Each logarithm is weighted by twice the triangle's area; the factor cancels out.
-  double sum = 0, area = 0;
-  forEachPlacedTriangle(scene, kMostTriangles, [&](const Corners& t) {
-    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
-    const double weight = length(normal);
-    const Vec3d point = (t[0] + t[1] + t[2]) / 3.0;
-
-    double light = 0;
-    for (const Light& l : scene.lights) light += irradiance(l, point, normalized(normal));
-    if (!(light > 0) || !std::isfinite(light) || !std::isfinite(weight)) return;
-
-    // A white surface of this irradiance has the radiance irradiance / pi.
-    sum += weight * std::log(light / std::numbers::pi);
-    area += weight;
-  });
-  return area > 0 ? std::exp(sum / area) : 0;
-}
-
-Camera turned(const Turntable& turntable, double turns) {
-  const double whole = turns - std::floor(turns);
-  if (whole == 0) return turntable.camera;
-
-  const Affine rotation = Affine::rotation(turntable.axis, 360 * whole);
-  Camera camera = turntable.camera;
-  const auto around = [&](const Vec3f& p) {
-    return Vec3f(turntable.pivot + rotation.vector(Vec3d(p) - turntable.pivot));
-  };
-
-  camera.eye = around(camera.eye);
-  camera.at = around(camera.at);
-  camera.up = Vec3f(rotation.vector(Vec3d(camera.up)));
-  return camera;
-}
-
-Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int width, int height) {
-  constexpr double kMargin = 1.06;
-  Turntable turntable{view.camera, Vec3d(view.camera.eye)};
-  if (view.inside || !(view.radius > 0)) return turntable;
-
-  const Vec3d side = normalized(Vec3d(view.camera.eye) - Vec3d(view.camera.at));
-  const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
-  const double aspect = static_cast<double>(width) / height;
-
-  // While the model turns, each slice of its outline sweeps a ring. The picture holds the edges of
-  // all rings.
-  const Outline outline = outlineOf(scene, view.center);
-  double distance = 0;
-  for (const auto i : indices(kSlices)) {
-    for (const double y : {outline.begin(i), outline.begin(i + 1)}) {
-      distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
-    }
-  }
-
-  turntable.pivot = view.center;
-  turntable.camera.at = Vec3f(view.center);
-  turntable.camera.eye = Vec3f(view.center + side * (distance / scene.zoom));
-  return turntable;
-}
-
-Turntable aroundTarget(const Camera& camera) {
-  return {camera, Vec3d(camera.at), normalized(Vec3d(camera.up), Vec3d{0, 1, 0})};
-}
-
-Sky studioSky() {
-  Sky sky;
-  sky.name = kStudio;
-  sky.kind = Sky::Kind::image;
-
-  EnvironmentImage& image = sky.image;
-  image.width = kWidth;
-  image.height = kHeight;
-  image.r.reserve(std::size_t{kWidth} * kHeight);
-
-  // Rows run from the zenith down to the nadir.
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double azimuth = 360 * (x + 0.5) / kWidth, elevation = 90 - 180 * (y + 0.5) / kHeight;
-      image.r.push_back(static_cast<float>(radianceAt(azimuth, elevation)));
-    }
-  }
-
-  image.g = image.b = image.r;
-  return sky;
 }
 
 }  // namespace whit

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "inspect/reference_frame.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "render/renderer.h"
 #include "scene/members.h"
 

@@ -4,7 +4,7 @@
 
 #include "bake/edit_scene.h"
 #include "gltf_files.h"
-#include "make/model_view.h"
+#include "make/turntable.h"
 
 namespace whit {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/vec3.h"
 #include "io/scene/scene_sections.h"
 #include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "pi.h"
 #include "scene_files.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "render/shipped_scene.h"
 #include "sanitized.h"
 #include "simd/kernels.h"

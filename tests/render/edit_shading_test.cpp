@@ -5,7 +5,7 @@
 
 #include "bake/edit_scene.h"
 #include "core/error.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "shipped_scene.h"
 
 namespace whit::test {

@@ -1,5 +1,6 @@
 // The brightness of lights, and of the studio that goes with them.
-#include "make/model_view.h"
+#include "make/light_level.h"
+#include "make/studio_sky.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The view of models that have no camera.
-#include "make/model_view.h"
+#include "make/turntable.h"
 
 #include <gtest/gtest.h>
 

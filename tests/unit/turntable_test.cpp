@@ -1,4 +1,4 @@
-#include "make/model_view.h"
+#include "make/turntable.h"
 
 #include <cmath>
 

@@ -11,7 +11,7 @@
 #include "engine/engine.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 #include "scene/members.h"
 #include "viewer/session/scene_edit.h"
 

@@ -6,7 +6,7 @@
 
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 
 namespace whit::view {
 

@@ -9,7 +9,7 @@
 #include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 
 namespace whit {
 

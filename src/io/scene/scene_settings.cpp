@@ -15,7 +15,7 @@
 #include "core/text.h"
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
-#include "make/model_view.h"
+#include "make/studio_sky.h"
 
 namespace whit {
 namespace {
