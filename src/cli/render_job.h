@@ -1,0 +1,50 @@
+// What whit render and whit turntable are asked for: their options, and the requests that they
+// refuse.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/terminal_picture.h"
+#include "command_line/option_list.h"
+#include "command_line/parse_options.h"
+#include "engine/engine.h"
+#include "inspect/budget.h"
+#include "make/turntable.h"
+#include "output/image_output.h"
+
+namespace whit::cli {
+
+// True for the name of a film, .mp4.
+bool isFilm(const std::string& output);
+
+struct RenderJob {
+  CommonOptions common;
+  std::vector<std::string> scenes, outputs;
+  std::string frames, json, time, target, command;
+  Budget budget;
+  double fps = 24;
+  bool resume = false, stats = false;
+  ExrStorage exr = ExrStorage::zip;
+  bool onTurntable = false;
+  double turns = 1;
+  TerminalGraphics graphics = TerminalGraphics::none;  // shows the picture on standard output
+  std::optional<Turntable> turntable;                  // once the scene is open
+  int turntableFrames = 96;                            // number of frames of all turns together
+
+  bool toStandardOutput() const { return contains(outputs, kStandardOutput); }
+  bool makesFilm() const;
+};
+
+OptionList listOptions(RenderJob& job);
+
+// Chooses the outputs that are not given. Throws if what is asked for cannot be, before anything is
+// loaded.
+void checkJob(RenderJob& job);
+
+// Throws if the scene, once it is open, cannot be rendered as asked for; warns of what the options
+// leave out.
+void checkScene(const RenderJob& job, const Scene& scene);
+
+}  // namespace whit::cli
