@@ -205,6 +205,7 @@ void checkJob(RenderJob& job) {
   checkStandardOutput(job);
 
   for (const std::string& output : job.outputs) {
+    refuseIf(std::ranges::count(job.outputs, output) > 1, "-o " + output + ": give each file once");
     refuseIf(job.resume && isJpeg(output),
              "--resume: a JPEG does not hold the options it was made with");
     if (output != kStandardOutput)

@@ -252,6 +252,8 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
 SceneName parseSceneName(const std::string& name) {
   std::error_code error;
   const std::size_t mark = name.find('?');
+  refuseIf(name.substr(0, mark).empty(),
+           "expected a scene file, a model or the name of a shipped scene, found '" + name + "'");
   if (mark == std::string::npos || fs::exists(name, error)) return {name, {}};
 
   SceneName result{name.substr(0, mark), {}};

@@ -115,7 +115,13 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 }  // namespace
 
 std::vector<double> valueAt(const Track& track, double time) {
-  const auto next = std::ranges::upper_bound(track.times, time);
+  // Files keep the times of keys in single precision. A key that is meant for the time of a frame
+  // may be later by that, and a value that jumps would be one frame late.
+  const bool jumps = track.interpolation == Track::Interpolation::step;
+  const auto isBefore = [&](double a, double b) {
+    return jumps ? static_cast<float>(a) < static_cast<float>(b) : a < b;
+  };
+  const auto next = std::ranges::upper_bound(track.times, time, isBefore);
   const std::size_t after = next - track.times.begin();
 
   std::vector<double> value;

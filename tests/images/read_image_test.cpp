@@ -48,10 +48,12 @@ TEST_F(ReadImage, PngOfEveryChannelCount) {
   EXPECT_EQ(raw("4.png", png(1, 1, 8, 6, rgba)).codes, (Bytes{1, 2, 3, 4}));
 }
 
-TEST_F(ReadImage, SixteenBitPngComesAsItsHighBytes) {
-  const RawImage image = raw("a.png", png(2, 1, 16, 0, {0, 0x12, 0x34, 0xff, 0xff}));
+// A code of 8 bits is 257 of 16 bits: 0x0080 and 0x0081 lie on both sides of a half.
+TEST_F(ReadImage, SixteenBitPngIsRounded) {
+  const RawImage image =
+      raw("a.png", png(4, 1, 16, 0, {0, 0x12, 0xff, 0xff, 0xff, 0x00, 0x80, 0x00, 0x81}));
   EXPECT_EQ(image.channels, 1);
-  EXPECT_EQ(image.codes, (Bytes{0x12, 0xff}));
+  EXPECT_EQ(image.codes, (Bytes{0x13, 0xff, 0x00, 0x01}));
 }
 
 TEST_F(ReadImage, JpegOfOneCoefficient) {

@@ -413,7 +413,7 @@ TEST_F(EveryProperty, OfGltf) {
       {primitive + "indices", indices, "at eye triangles"},
       {primitive + "material", 1, "slots"},
       {primitive + "attributes/NORMAL", normal, "normals"},
-      {primitive + "attributes/COLOR_0", color, "colors"},
+      {primitive + "attributes/COLOR_0", color, "message colors"},
       {primitive + "attributes/COLOR_1", color, "message"},
       {"/cameras/0/perspective/yfov", 0.5, "fov"},
       {"/cameras/0/perspective/aspectRatio", 2, "aspect size"},

@@ -41,6 +41,25 @@ TEST_F(GltfMaterials, VertexColors) {
   expectColor(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base color
 }
 
+TEST_F(GltfMaterials, VertexColorsOfHalfAMetalAreCounted) {
+  const std::string what =
+      "vertex colors of what is metal in part: they color its reflection as a whole or not at all";
+  const auto warnings = [&](const char* metallic) {
+    const std::string metal = "{\"pbrMetallicRoughness\":{\"metallicFactor\":";
+    loadText(sceneText({{0, metal + metallic + "}}", 1}}));
+    return warned(what);
+  };
+
+  // White changes nothing.
+  colors_.assign(12, 1);
+  EXPECT_EQ(warnings("0.5"), 0u);
+
+  colors_ = {1, 0, 0, 0, 1, 0, 1, 0.5f, 1, 0, 0, 1};
+  EXPECT_EQ(warnings("0"), 0u);
+  EXPECT_EQ(warnings("1"), 0u);
+  EXPECT_EQ(warnings("0.5"), 1u);
+}
+
 // The pixel of a surface that glows with 1 shows its alpha: the alpha of the corners, interpolated,
 // times the factor's.
 TEST_F(GltfMaterials, AlphaOfVertexColorsBlends) {

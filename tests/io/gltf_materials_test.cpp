@@ -369,6 +369,11 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   EXPECT_NEAR(seen(""), thin, kClose);
   EXPECT_NEAR(seen(",\"KHR_materials_ior\":{\"ior\":2},\"KHR_materials_volume\":{}"),
               0.5 * (1 - 1.0 / 9 - 8.0 / 9 * std::pow(1 - std::sqrt(0.5), 5)), kClose);
+  // An index of 0 stands for a reflectance of 1, times the color.
+  const std::string all = ",\"KHR_materials_ior\":{\"ior\":0}";
+  EXPECT_NEAR(seen(all), 0, kClose);
+  EXPECT_NEAR(seen(all + ",\"KHR_materials_specular\":{\"specularColorFactor\":[0.25,0.25,0.25]}"),
+              0.5 * 0.75 * (1 - std::pow(1 - std::sqrt(0.5), 5)), kClose);
   EXPECT_NEAR(seen(",\"KHR_materials_volume\":{\"thicknessFactor\":0,\"attenuationDistance\":1,"
                    "\"attenuationColor\":[0.1,0.1,0.1]}"),
               thin, kClose);

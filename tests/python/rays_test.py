@@ -105,6 +105,8 @@ class Rays(unittest.TestCase):
                 self.scene.closest(origins, directions)
         with self.assertRaisesRegex(whit.Error, "t_far"):
             self.scene.closest(np.zeros((2, 3)), DOWN, t_far=np.zeros(3))
+        with self.assertRaisesRegex(ValueError, "limit: expected None or at least 0"):
+            self.scene.all_hits(np.zeros(3), DOWN, limit=-1)
         with self.assertRaisesRegex(whit.Error, "radius"):
             self.scene.ambient_occlusion(np.zeros(3), DOWN, -1)
 

@@ -53,6 +53,21 @@ TEST(Tracks, StepKeepsAValueUntilTheNextKey) {
   EXPECT_EQ(valueAt(track, 1.999), std::vector<double>{5});
 }
 
+// Most of these keys are a little later in single precision than the frames they are meant for.
+TEST(Tracks, StepsOfAFileAreNoFrameLate) {
+  std::vector<double> times, values;
+  for (int frame = 0; frame < 48; ++frame) {
+    times.push_back(double{static_cast<float>(frame / 24.0)});
+    values.push_back(frame);
+  }
+
+  const Track track = trackOf(Track::Interpolation::step, times, values);
+  for (int frame = 1; frame < 48; ++frame) {
+    EXPECT_EQ(valueAt(track, frame / 24.0), std::vector<double>{1.0 * frame});
+    EXPECT_EQ(valueAt(track, (frame - 0.001) / 24), std::vector<double>{frame - 1.0});
+  }
+}
+
 TEST(Tracks, LinearIsAStraightLineBetweenUnevenKeys) {
   const Track track = trackOf(Track::Interpolation::linear, {0, 1, 5}, {0, 2, 10});
   for (const double t : {0.0, 0.3, 1.0, 1.7, 4.9, 5.0}) expectValues(valueAt(track, t), {2 * t});

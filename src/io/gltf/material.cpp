@@ -155,8 +155,10 @@ class GltfMaterialReader {
   // Reads the reflectance of what is no metal: that of its index of refraction, times the factors
   // of an extension.
   void readDielectric() {
-    m_.ior = readNumber(extensions_["KHR_materials_ior"]["ior"], 1.5, 1, kLargestIor);
-    const float step = (m_.ior - 1) / (m_.ior + 1);
+    const JsonValue ior = extensions_["KHR_materials_ior"]["ior"];
+    m_.ior = readNumber(ior, 1.5, 1, kLargestIor);
+    // An index of 0 means a reflectance of 1, which the extension's color then replaces.
+    const float step = ior.numberOr(1) == 0 ? 1 : (m_.ior - 1) / (m_.ior + 1);
     const JsonValue specular = extensions_["KHR_materials_specular"];
     m_.f90 = readNumber(specular["specularFactor"], 1);
     m_.specularColor =

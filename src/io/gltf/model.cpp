@@ -191,6 +191,7 @@ class PrimitiveReader {
     GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
     checkLength(mesh.colors.size(), mesh.positions.size(), color);
+    warnOfHalfMetal(mesh);
     if (!read.translucent) return;
 
     if (!source_.alphaByVertex) {
@@ -212,6 +213,16 @@ class PrimitiveReader {
         mesh.secondUvs[i].x = 1 - std::clamp(alpha, 0.0f, 1.0f);
       }
     }
+  }
+
+  // Vertex colors multiply the reflection as a whole, that of metal, or not at all.
+  void warnOfHalfMetal(const Mesh& mesh) {
+    const bool isInPart = source_.mixesMetal() || (source_.metallic > 0 && source_.metallic < 1);
+    const auto isWhite = [](const Rgb& color) { return color == Rgb(1.0f); };
+    if (!isInPart || std::ranges::all_of(mesh.colors, isWhite)) return;
+    warn(
+        "vertex colors of what is metal in part: they color its reflection as a whole or not at "
+        "all");
   }
 
   // Empty where the primitive does not have this set.

@@ -65,7 +65,7 @@ class PngReader {
   void prepare() {
     guarded([this] {
       png_set_expand(lib_.png);
-      png_set_strip_16(lib_.png);
+      png_set_scale_16(lib_.png);  // rounds, where png_set_strip_16() cuts off
       passes_ = png_set_interlace_handling(lib_.png);
       png_read_update_info(lib_.png, lib_.info);
     });

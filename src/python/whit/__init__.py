@@ -408,7 +408,9 @@ class Scene:
         that overlap count once, as do triangles whose common edge is hit. Arguments as in
         closest(); results have one row a hit whatever the shape of the rays."""
         rays, _ = self._rays(origins, directions, t_near, t_far)
-        most = 2**64 - 1 if limit is None else max(operator.index(limit), 0)
+        most = 2**64 - 1 if limit is None else operator.index(limit)
+        if most < 0:
+            raise ValueError(f"limit: expected None or at least 0, found {limit}")
         columns = self._object.all_hits(rays, most, progress)
         return _rays.hits(columns, columns["t"].shape)
 
