@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -69,29 +70,70 @@ enum GltfBakeImage {
 };
 using GltfBakeImages = std::array<std::shared_ptr<const RawImage>, kBakeImages>;
 
-// Nearest texels of an image that is stretched to another size; white without an image.
+// Textures of a GltfMaterial by GltfBakeImage.
+constexpr GltfTexture GltfMaterial::*kBakeMaps[kBakeImages] = {
+    &GltfMaterial::baseMap, &GltfMaterial::metallicRoughnessMap, &GltfMaterial::specularMap,
+    &GltfMaterial::specularColorMap, &GltfMaterial::transmissionMap};
+
+// Two neighboring texels of a row or column, and the weight of the second.
+struct Between {
+  std::size_t first, second;
+  float weight;
+};
+
+// Returns what each of `count` texels shows that together show a row of texels `times` times from
+// `begin` on.
+std::vector<Between> resample(int texels, double count, double times, double begin, Wrap wrap,
+                              bool nearest) {
+  const auto wrapped = [=](double texel) {
+    return static_cast<std::size_t>(wrapTexel(static_cast<int>(texel), texels, wrap));
+  };
+
+  std::vector<Between> shown;
+  for (const auto i : indices(static_cast<std::size_t>(count))) {
+    const double place = times * (static_cast<double>(i) + 0.5) / count + begin;
+    const double inImage = std::min(place - std::floor(place), 1 - 1e-9);  // below 1
+
+    // Centers of texels lie at half-integers. Close to one of them its texel is shown alone.
+    constexpr double kRounding = 1e-3;
+    const double center = inImage * texels - 0.5;
+    const double first = std::floor(center + (nearest ? 0.5 : kRounding));
+    const double weight = center - first;
+    const bool isAlone = nearest || weight < kRounding;
+    shown.push_back(
+        {wrapped(first), wrapped(first + 1), isAlone ? 0.0f : static_cast<float>(weight)});
+  }
+  return shown;
+}
+
+// `read` returns the value of a texel.
+template <typename Read>
+auto blend(const RawImage& raw, const Between& column, const Between& row, const Read& read) {
+  const auto along = [&](std::size_t line) {
+    const std::size_t begin = line * static_cast<std::size_t>(raw.width);
+    const auto first = read(begin + column.first);
+    if (column.weight == 0) return first;
+    return first + (read(begin + column.second) - first) * column.weight;
+  };
+
+  const auto upper = along(row.first);
+  if (row.weight == 0) return upper;
+  return upper + (along(row.second) - upper) * row.weight;
+}
+
+// An image that is stretched to another size; white without an image.
 struct Stretched {
-  const RawImage* raw;
-  int width, height;
+  const RawImage* raw = nullptr;
+  std::vector<Between> columns, rows;
 
   Rgb color(std::size_t x, std::size_t y) const {  // linear
     if (!raw) return Rgb(1.0f);
-    return linearPixel(*raw, indexOf(x, y));
+    return blend(*raw, columns[x], rows[y], [&](std::size_t i) { return linearPixel(*raw, i); });
   }
   float value(std::size_t x, std::size_t y, std::size_t channel) const {  // of valuesAt()
     if (!raw) return 1.0f;
-    return valuesAt(*raw, indexOf(x, y))[channel];
-  }
-
- private:
-  std::size_t indexOf(std::size_t x, std::size_t y) const {
-    const auto own = [](std::size_t place, int from, int to) {  // divisions take time
-      return from == to ? place
-                        : place * static_cast<std::size_t>(to) / static_cast<std::size_t>(from);
-    };
-
-    return own(y, height, raw->height) * static_cast<std::size_t>(raw->width) +
-           own(x, width, raw->width);
+    return blend(*raw, columns[x], rows[y],
+                 [&](std::size_t i) { return valuesAt(*raw, i)[channel]; });
   }
 };
 
@@ -167,12 +209,13 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage* base,
 }
 
 // Returns a black texture for each GltfBakedMap that is needed, but for the alpha map.
-Images emptyMaps(const GltfMaterial& m, const RawImage* base, int width, int height) {
+Images emptyMaps(const GltfMaterial& m, const RawImage* base, const GltfTexture& sampler, int width,
+                 int height) {
   Images maps(kGltfBakedMaps);
   const auto start = [&](GltfBakedMap map, TexelFormat format) {
     if (!wantsBaked(m, map)) return;
     maps[map] = emptyTexture(m.name, format, width, height);
-    setSampler(m.surfaceMap(), *maps[map]);
+    setSampler(sampler, *maps[map]);
   };
 
   // An unlit material emits its base color, which may exceed 1.
@@ -182,25 +225,81 @@ Images emptyMaps(const GltfMaterial& m, const RawImage* base, int width, int hei
   return maps;
 }
 
-// Makes one texture for each GltfBakedMap that is needed, in the size of the largest image; the
-// others are stretched to it. Throws Error(limit) where the textures are larger than the limits
-// allow.
-Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
-            GltfMeans& means) {
+bool hasEvenMetalness(const RawImage& raw) {
+  const float first = valuesAt(raw, 0)[2];
+  for (const auto i : indices(raw.pixels())) {
+    if (valuesAt(raw, i)[2] != first) return false;
+  }
+  return true;
+}
+
+// Returns the texels of a side that shows another image as well: as many as the larger one has.
+// Texels that are not interpolated get a common multiple, unless that is larger than kMost.
+int sideOfBoth(int side, int texels, bool nearest) {
+  constexpr int kMost = 1024;
+  const int larger = std::max(side, texels);
+  const auto common = std::lcm(std::int64_t{side}, std::int64_t{texels});
+  return nearest && common <= std::max(larger, kMost) ? static_cast<int>(common) : larger;
+}
+
+// Images that are stretched to one size and looked up with one sampler. Those that change nothing
+// and a metalness that is the same everywhere have no influence on either.
+struct BakedImages {
   int width = 1, height = 1;
-  for (const auto& raw : images) {
-    width = std::max(width, raw ? raw->width : 1);
-    height = std::max(height, raw ? raw->height : 1);
+  GltfTexture sampler;
+  std::array<Stretched, kBakeImages> stretched;
+};
+
+BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warnings& warnings) {
+  BakedImages baked;
+  const bool f0 = m.variesF0();
+  const auto& metals = images[kMetallicRoughness];
+  const bool mixes = m.metallic > 0 && metals && !hasEvenMetalness(*metals);
+  const bool counts[kBakeImages] = {true, mixes, f0, f0, m.variesTransmission()};
+
+  std::vector<std::size_t> counting;
+  for (const auto i : indices(images)) {
+    if (!images[i] || !counts[i]) continue;
+    const GltfTexture& own = m.*kBakeMaps[i];
+    if (counting.empty()) baked.sampler = own;
+    const bool nearest = own.nearest || baked.sampler.nearest;
+    baked.width = sideOfBoth(baked.width, images[i]->width, nearest);
+    baked.height = sideOfBoth(baked.height, images[i]->height, nearest);
+    counting.push_back(i);
   }
 
-  const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
-  const Stretched bases{images[kBase].get(), width, height};
-  const Stretched metals{images[kMetallicRoughness].get(), width, height};
-  const Stretched speculars{images[kSpecular].get(), width, height};
-  const Stretched tints{images[kSpecularColor].get(), width, height};
-  const Stretched clears{images[kTransmission].get(), width, height};
+  // Texels of what is baked cannot follow all edges of others, nor both samplers.
+  for (const std::size_t i : counting) {
+    const GltfTexture &own = m.*kBakeMaps[i], &used = baked.sampler;
+    const bool isSame =
+        own.nearest == used.nearest && own.wrapU == used.wrapU && own.wrapV == used.wrapV;
+    const bool fits = !own.nearest || (baked.width % images[i]->width == 0 &&
+                                       baked.height % images[i]->height == 0);
+    if (isSame && fits) continue;
+    warnings.add(
+        "sampler of a texture followed roughly: it is combined with its material's first texture",
+        m.where);
+  }
 
-  Images maps = emptyMaps(m, images[kBase].get(), width, height);
+  for (const auto i : indices(images)) {
+    const RawImage* const raw = images[i].get();
+    const GltfTexture& own = m.*kBakeMaps[i];
+    if (!raw) continue;
+    baked.stretched[i] = {raw, resample(raw->width, baked.width, 1, 0, own.wrapU, own.nearest),
+                          resample(raw->height, baked.height, 1, 0, own.wrapV, own.nearest)};
+  }
+  return baked;
+}
+
+// Makes one texture for each GltfBakedMap that is needed, from images that are stretched to one
+// size. Throws Error(limit) where the textures are larger than the limits allow.
+Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
+            Warnings& warnings, GltfMeans& means) {
+  const BakedImages baked = stretch(m, images, warnings);
+  const auto& [bases, metals, speculars, tints, clears] = baked.stretched;
+  const int width = baked.width, height = baked.height;
+  const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
+  Images maps = emptyMaps(m, images[kBase].get(), baked.sampler, width, height);
 
   // A base color that nothing dims is encoded as it is, which is faster.
   std::optional<Texture>& diffuseMap = maps[kGltfDiffuse];
@@ -302,23 +401,18 @@ std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawI
   return dims ? std::optional(std::move(texture)) : std::nullopt;
 }
 
-// Which of a row of texels is shown by each texel of a row that repeats it. It keeps all of them
-// unless that takes more than an image of usual size.
-std::vector<std::size_t> repeated(int texels, double times, double begin) {
+// Returns how many texels show a row of texels so often. It keeps all of them unless that takes
+// more than an image of usual size.
+double repeatedSide(int texels, double times) {
   const double most = std::max(texels, 4096);
-  const double count = std::clamp(std::round(std::abs(times) * texels), 1.0, most);
-  std::vector<std::size_t> shown;
-  for (const auto i : indices(static_cast<std::size_t>(count))) {
-    const double place = times * (static_cast<double>(i) + 0.5) / count + begin;
-    const double inImage = std::min(place - std::floor(place), 1 - 0.5 / texels);  // below 1
-    shown.push_back(static_cast<std::size_t>(inImage * texels));
-  }
-  return shown;
+  return std::clamp(std::round(std::abs(times) * texels), 1.0, most);
 }
 
 RawImage repeated(const RawImage& raw, const Repeats& repeats, const ImageLimits& limits) {
-  const std::vector<std::size_t> columns = repeated(raw.width, repeats.u, repeats.u0);
-  const std::vector<std::size_t> rows = repeated(raw.height, repeats.v, repeats.v0);
+  const auto columns = resample(raw.width, repeatedSide(raw.width, repeats.u), repeats.u,
+                                repeats.u0, Wrap::repeat, true);
+  const auto rows = resample(raw.height, repeatedSide(raw.height, repeats.v), repeats.v, repeats.v0,
+                             Wrap::repeat, true);
   RawImage all = startImage("a repeated texture", std::ssize(columns), std::ssize(rows),
                             raw.channels, raw.linear, limits);
 
@@ -327,9 +421,9 @@ RawImage repeated(const RawImage& raw, const Repeats& repeats, const ImageLimits
   const std::size_t size = rows.size() * columns.size() * channels;
   if (raw.linear) all.values.reserve(size);
   if (!raw.linear) all.codes.reserve(size);
-  for (const std::size_t row : rows) {
-    for (const std::size_t column : columns) {
-      const std::size_t first = (row * width + column) * channels;
+  for (const Between& row : rows) {
+    for (const Between& column : columns) {
+      const std::size_t first = (row.first * width + column.first) * channels;
       for (std::size_t i = first; i < first + channels; ++i) {
         if (raw.linear) all.values.push_back(raw.values[i]);
         if (!raw.linear) all.codes.push_back(raw.codes[i]);
@@ -376,16 +470,15 @@ void requestBaked(const MapRequest& request, Material& slots) {
 
   const auto baked = request.textures.add(kGltfBakedMaps, [request] {
     const GltfMaterial& m = request.material;
-    const GltfBakeImages images{request.decoded(m.baseMap), request.decoded(m.metallicRoughnessMap),
-                                request.decoded(m.specularMap), request.decoded(m.specularColorMap),
-                                request.decoded(m.transmissionMap)};
+    GltfBakeImages images;
+    for (const auto i : indices(images)) images[i] = request.decoded(m.*kBakeMaps[i]);
 
     const bool isReflectance = images[kBase] && !m.unlit;
     if (isReflectance) warnOfClampedColors(m.where, *images[kBase], request.warnings);
     if (const auto& tint = images[kSpecularColor]) {
       warnOfClampedColors(m.where, *tint, request.warnings);
     }
-    return bake(m, images, request.textures.limits(), *request.means);
+    return bake(m, images, request.textures.limits(), request.warnings, *request.means);
   });
 
   if (wantsBaked(m, kGltfDiffuse)) {
