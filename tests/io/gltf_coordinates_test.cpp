@@ -160,6 +160,46 @@ TEST_F(GltfCoordinates, AThirdKindIsResampled) {
   EXPECT_EQ(warned(kApart), 2u);
 }
 
+// Without a normal map, which takes the second kind of coordinates, the emission is looked up with
+// its own. The offset of 0.1 is a fifth of a column.
+TEST_F(GltfCoordinates, AThirdKindBetweenTexelsShowsWhatTheSecondDoes) {
+  save("warm.tga", tga(2, 1, {{200, 30, 0}, {20, 100, 255}}));
+  candela_ = 0;
+  const std::string normal = ",\"normalTexture\":{\"index\":1,\"texCoord\":1}";
+
+  for (const std::string sampler : {"\"magFilter\":9729", "\"magFilter\":9728"}) {
+    useImages({"color.tga", "light.tga", "warm.tga"}, sampler);
+    const auto emitted = [&](const std::string& rest) {
+      const std::string own = "{\"index\":2" + transformed("\"offset\":[0.1,0]") + "}";
+      const std::string all = "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":" + own + rest;
+      return picture({{0, matte("\"baseColorTexture\":{\"index\":0}", all), 1}}, 32);
+    };
+
+    const auto resampled = emitted(normal), own = emitted("");
+
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      SCOPED_TRACE(sampler + std::to_string(i));
+      expectColor(resampled[i], own[i]);
+    }
+  }
+  EXPECT_EQ(kinds(), "");
+}
+
+TEST_F(GltfCoordinates, AThirdKindBetweenTexelsOfALargeImageIsCounted) {
+  save("wide.tga", tga(255, 1, std::vector<std::vector<int>>(255, {255, 0, 0})));
+  useImages({"color.tga", "wide.tga"});
+
+  loadText(
+      sceneText({{0,
+                  matte("\"baseColorTexture\":{\"index\":0}",
+                        "\"normalTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":[1,1,1],"
+                        "\"emissiveTexture\":{\"index\":1" +
+                            transformed("\"scale\":[4,1],\"offset\":[0.1,0]") + "}"),
+                  1}}));
+
+  EXPECT_EQ(warned("texture that a third transform shifts by parts of a texel blurred"), 1u);
+}
+
 // Metal, in the blue channel, takes the diffuse color.
 TEST_F(GltfCoordinates, MetalnessOfAnotherTransformIsResampled) {
   const SceneDescription d =

@@ -9,7 +9,7 @@ namespace whit {
 namespace {
 
 constexpr char kRoughly[] =
-    "sampler of a texture followed roughly: it is combined with its material's first texture";
+    "sampler of a texture followed roughly: it is combined with its material's first";
 constexpr char kByTexel[] = "\"magFilter\":9728", kTiled[] = "\"wrapS\":10497",
                kClamped[] = "\"wrapS\":33071", kMirrored[] = "\"wrapS\":33648";
 

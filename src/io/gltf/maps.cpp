@@ -1,6 +1,7 @@
 // Textures made from glTF's images: reflectance, holes, normals, emission.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -77,16 +78,19 @@ constexpr GltfTexture GltfMaterial::*kBakeMaps[kBakeImages] = {
 
 // Two neighboring texels of a row or column, and the weight of the second.
 struct Between {
-  std::size_t first, second;
+  int first, second;
   float weight;
 };
+
+// Places in texels that differ by no more than this are one, which rounding moved.
+constexpr double kTexelRounding = 1e-3;
 
 // Returns what each of `count` texels shows that together show a row of texels `times` times from
 // `begin` on.
 std::vector<Between> resample(int texels, double count, double times, double begin, Wrap wrap,
                               bool nearest) {
   const auto wrapped = [=](double texel) {
-    return static_cast<std::size_t>(wrapTexel(static_cast<int>(texel), texels, wrap));
+    return wrapTexel(static_cast<int>(texel), texels, wrap);
   };
 
   std::vector<Between> shown;
@@ -95,13 +99,11 @@ std::vector<Between> resample(int texels, double count, double times, double beg
     const double inImage = std::min(place - std::floor(place), 1 - 1e-9);  // below 1
 
     // Centers of texels lie at half-integers. Close to one of them its texel is shown alone.
-    constexpr double kRounding = 1e-3;
     const double center = inImage * texels - 0.5;
-    const double first = std::floor(center + (nearest ? 0.5 : kRounding));
+    const double first = std::floor(center + (nearest ? 0.5 : kTexelRounding));
     const double weight = center - first;
-    const bool isAlone = nearest || weight < kRounding;
-    shown.push_back(
-        {wrapped(first), wrapped(first + 1), isAlone ? 0.0f : static_cast<float>(weight)});
+    const bool isAlone = nearest || weight < kTexelRounding;
+    shown.push_back({wrapped(first), wrapped(first + 1), static_cast<float>(isAlone ? 0 : weight)});
   }
   return shown;
 }
@@ -109,8 +111,8 @@ std::vector<Between> resample(int texels, double count, double times, double beg
 // `read` returns the value of a texel.
 template <typename Read>
 auto blend(const RawImage& raw, const Between& column, const Between& row, const Read& read) {
-  const auto along = [&](std::size_t line) {
-    const std::size_t begin = line * static_cast<std::size_t>(raw.width);
+  const auto along = [&](int line) {
+    const std::size_t begin = cellsOf(line, raw.width);
     const auto first = read(begin + column.first);
     if (column.weight == 0) return first;
     return first + (read(begin + column.second) - first) * column.weight;
@@ -225,28 +227,20 @@ Images emptyMaps(const GltfMaterial& m, const RawImage* base, const GltfTexture&
   return maps;
 }
 
-bool hasEvenMetalness(const RawImage& raw) {
-  const float first = valuesAt(raw, 0)[2];
-  for (const auto i : indices(raw.pixels())) {
-    if (valuesAt(raw, i)[2] != first) return false;
-  }
-  return true;
-}
-
-// Returns the texels of a side that shows another image as well: as many as the larger one has.
-// Texels that are not interpolated get a common multiple, unless that is larger than kMost.
-int sideOfBoth(int side, int texels, bool nearest) {
+// Returns the texels of a side that shows another image as well: a common multiple, which keeps all
+// edges of texels that are not interpolated, or as many as the larger one has.
+int sideOfBoth(int side, int texels) {
   constexpr int kMost = 1024;
   const int larger = std::max(side, texels);
-  const auto common = std::lcm(std::int64_t{side}, std::int64_t{texels});
-  return nearest && common <= std::max(larger, kMost) ? static_cast<int>(common) : larger;
+  const auto common = std::lcm(std::int64_t{side}, texels);
+  return common <= std::max(larger, kMost) ? static_cast<int>(common) : larger;
 }
 
 // Images that are stretched to one size and looked up with one sampler. Those that change nothing
 // and a metalness that is the same everywhere have no influence on either.
 struct BakedImages {
   int width = 1, height = 1;
-  GltfTexture sampler;
+  std::optional<GltfTexture> sampler;  // of the first that counts
   std::array<Stretched, kBakeImages> stretched;
 };
 
@@ -254,31 +248,14 @@ BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warning
   BakedImages baked;
   const bool f0 = m.variesF0();
   const auto& metals = images[kMetallicRoughness];
-  const bool mixes = m.metallic > 0 && metals && !hasEvenMetalness(*metals);
-  const bool counts[kBakeImages] = {true, mixes, f0, f0, m.variesTransmission()};
+  const bool mixes = m.metallic > 0 && metals && meanOf(*metals, 2).varies;
+  const bool counts[] = {true, mixes, f0, f0, m.variesTransmission()};
 
-  std::vector<std::size_t> counting;
   for (const auto i : indices(images)) {
     if (!images[i] || !counts[i]) continue;
-    const GltfTexture& own = m.*kBakeMaps[i];
-    if (counting.empty()) baked.sampler = own;
-    const bool nearest = own.nearest || baked.sampler.nearest;
-    baked.width = sideOfBoth(baked.width, images[i]->width, nearest);
-    baked.height = sideOfBoth(baked.height, images[i]->height, nearest);
-    counting.push_back(i);
-  }
-
-  // Texels of what is baked cannot follow all edges of others, nor both samplers.
-  for (const std::size_t i : counting) {
-    const GltfTexture &own = m.*kBakeMaps[i], &used = baked.sampler;
-    const bool isSame =
-        own.nearest == used.nearest && own.wrapU == used.wrapU && own.wrapV == used.wrapV;
-    const bool fits = !own.nearest || (baked.width % images[i]->width == 0 &&
-                                       baked.height % images[i]->height == 0);
-    if (isSame && fits) continue;
-    warnings.add(
-        "sampler of a texture followed roughly: it is combined with its material's first texture",
-        m.where);
+    if (!baked.sampler) baked.sampler = m.*kBakeMaps[i];
+    baked.width = sideOfBoth(baked.width, images[i]->width);
+    baked.height = sideOfBoth(baked.height, images[i]->height);
   }
 
   for (const auto i : indices(images)) {
@@ -287,6 +264,18 @@ BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warning
     if (!raw) continue;
     baked.stretched[i] = {raw, resample(raw->width, baked.width, 1, 0, own.wrapU, own.nearest),
                           resample(raw->height, baked.height, 1, 0, own.wrapV, own.nearest)};
+    if (!counts[i]) continue;
+
+    // Texels of what is baked cannot follow all edges of others, nor two samplers.
+    const GltfTexture& used = *baked.sampler;
+    const bool isSame =
+        own.nearest == used.nearest && own.wrapU == used.wrapU && own.wrapV == used.wrapV;
+    const int beyond = baked.width % raw->width + baked.height % raw->height;
+    if (!isSame || (own.nearest && beyond > 0)) {
+      warnings.add(
+          "sampler of a texture followed roughly: it is combined with its material's first",
+          m.where);
+    }
   }
   return baked;
 }
@@ -299,7 +288,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const auto& [bases, metals, speculars, tints, clears] = baked.stretched;
   const int width = baked.width, height = baked.height;
   const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
-  Images maps = emptyMaps(m, images[kBase].get(), baked.sampler, width, height);
+  Images maps = emptyMaps(m, images[kBase].get(), baked.sampler.value_or(m.baseMap), width, height);
 
   // A base color that nothing dims is encoded as it is, which is faster.
   std::optional<Texture>& diffuseMap = maps[kGltfDiffuse];
@@ -401,32 +390,50 @@ std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawI
   return dims ? std::optional(std::move(texture)) : std::nullopt;
 }
 
-// Returns how many texels show a row of texels so often. It keeps all of them unless that takes
-// more than an image of usual size.
-double repeatedSide(int texels, double times) {
-  const double most = std::max(texels, 4096);
-  return std::clamp(std::round(std::abs(times) * texels), 1.0, most);
+RawImage inLinearLight(const RawImage& raw, const ImageLimits& limits) {
+  RawImage all = startImage("a repeated texture", raw.width, raw.height, 3, true, limits);
+  for (const auto i : indices(raw.pixels())) {
+    const Rgb color = linearPixel(raw, i);
+    all.values.insert(all.values.end(), {color.x, color.y, color.z});
+  }
+  return all;
 }
 
-RawImage repeated(const RawImage& raw, const Repeats& repeats, const ImageLimits& limits) {
-  const auto columns = resample(raw.width, repeatedSide(raw.width, repeats.u), repeats.u,
-                                repeats.u0, Wrap::repeat, true);
-  const auto rows = resample(raw.height, repeatedSide(raw.height, repeats.v), repeats.v, repeats.v0,
-                             Wrap::repeat, true);
-  RawImage all = startImage("a repeated texture", std::ssize(columns), std::ssize(rows),
+// A row of texels that is shown several times.
+struct RepeatedRow {
+  std::vector<Between> shown;
+  bool isBetween = false;  // it begins between two texels
+  bool isCoarse = false;   // and its own ones do not keep their edges
+};
+
+// It keeps all texels unless that takes more than an image of usual size.
+RepeatedRow repeatedRow(int texels, double times, double begin, bool nearest) {
+  constexpr double kFinest = 2048, kSharp = 4;
+  const double most = std::max(texels, 4096);
+  const double count = std::clamp(std::round(std::abs(times) * texels), 1.0, most);
+
+  const double start = begin * texels;
+  const bool isBetween = std::abs(start - std::round(start)) > kTexelRounding;
+  const double finer = isBetween ? std::max(std::floor(kFinest / count), 1.0) : 1;
+  return {resample(texels, finer * count, times, begin, Wrap::repeat, nearest), isBetween,
+          isBetween && finer < kSharp};
+}
+
+RawImage repeated(const RawImage& raw, const RepeatedRow& columns, const RepeatedRow& rows,
+                  const ImageLimits& limits) {
+  RawImage all = startImage("a repeated texture", std::ssize(columns.shown), std::ssize(rows.shown),
                             raw.channels, raw.linear, limits);
 
-  const auto width = static_cast<std::size_t>(raw.width);
   const auto channels = static_cast<std::size_t>(raw.channels);
-  const std::size_t size = rows.size() * columns.size() * channels;
-  if (raw.linear) all.values.reserve(size);
-  if (!raw.linear) all.codes.reserve(size);
-  for (const Between& row : rows) {
-    for (const Between& column : columns) {
-      const std::size_t first = (row.first * width + column.first) * channels;
-      for (std::size_t i = first; i < first + channels; ++i) {
-        if (raw.linear) all.values.push_back(raw.values[i]);
-        if (!raw.linear) all.codes.push_back(raw.codes[i]);
+  for (const Between& row : rows.shown) {
+    for (const Between& column : columns.shown) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        const float value = blend(raw, column, row, [&](std::size_t i) {
+          const std::size_t at = i * channels + c;
+          return raw.linear ? raw.values[at] : static_cast<float>(raw.codes[at]);
+        });
+        if (raw.linear) all.values.push_back(value);
+        if (!raw.linear) all.codes.push_back(static_cast<std::uint8_t>(std::lround(value)));
       }
     }
   }
@@ -449,9 +456,21 @@ struct MapRequest {
 
   // Returns null if there is no image, or none that can be read.
   std::shared_ptr<const RawImage> decoded(const GltfTexture& map, const Repeats& repeats) const {
-    auto raw = map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
+    const ImageLimits limits = textures.limits();
+    auto raw = map.image ? images[*map.image]->decode(limits) : nullptr;
     if (!raw || repeats == Repeats()) return raw;
-    return std::make_shared<const RawImage>(repeated(*raw, repeats, textures.limits()));
+
+    const auto columns = repeatedRow(raw->width, repeats.u, repeats.u0, map.nearest);
+    const auto rows = repeatedRow(raw->height, repeats.v, repeats.v0, map.nearest);
+    if (columns.isCoarse || rows.isCoarse) {
+      warnings.add("texture that a third transform shifts by parts of a texel blurred",
+                   material.where);
+    }
+
+    if (repeats.isColor && (columns.isBetween || rows.isBetween)) {
+      raw = std::make_shared<const RawImage>(inLinearLight(*raw, limits));
+    }
+    return std::make_shared<const RawImage>(repeated(*raw, columns, rows, limits));
   }
   // The same, for the coordinates that the material looks the map up with.
   std::shared_ptr<const RawImage> decoded(const GltfTexture& map) const {

@@ -282,6 +282,7 @@ std::optional<Repeats> repeatsOf(const GltfMaterial& m, const GltfTexture& textu
   Repeats r{own.uu / from.uu, own.vv / from.vv};
   r.u0 = own.u0 - r.u * from.u0;
   r.v0 = own.v0 - r.v * from.v0;
+  r.isColor = &texture == &m.emissiveMap || &texture == &m.specularColorMap;
 
   constexpr double kMost = 1e4, kRounding = 1e-6;
   const auto isRegular = [](double times, double begin, Wrap wrap) {

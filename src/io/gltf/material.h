@@ -136,6 +136,7 @@ struct GltfMeans {
 // How often an image repeats where the coordinates that look it up grow by 1, and where it begins.
 struct Repeats {
   double u = 1, v = 1, u0 = 0, v0 = 0;
+  bool isColor = false;  // its texels are interpolated in linear light
   bool operator==(const Repeats&) const = default;
 };
 // Returns how to resample a texture of the material for the coordinates that it is looked up with,
