@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "core/display.h"
 #include "fuzz/damage.h"
@@ -268,6 +269,69 @@ TEST_F(Assimp, ARiggedModelIsShownAtRest) {
   save("t.png", bytesOfFile("png/rgb.png"));
   expectTetrahedron(loadBytes("dae", text), 5, true);
   EXPECT_TRUE(hasText(kinds(), "shown at rest"));
+}
+
+// A binary STL file of the unit square in the plane z = 0, as two triangles, and a third that has
+// this corner beside two that are its own.
+std::string squareStl(std::vector<float> corner) {
+  const std::vector<std::vector<float>> triangles{
+      {0, 0, 0, 1, 0, 0, 1, 1, 0}, {0, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 0, 1, 1, 0, 1}};
+  const std::uint32_t count = corner.empty() ? 2 : 3;
+  std::string file = std::string(80, ' ') + bytesOf<std::uint32_t>({count});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    file += std::string(12, '\0') + bytesOf(triangles[i]);
+    if (i == 2) file += bytesOf(corner);
+    file += std::string(2, '\0');
+  }
+  return file;
+}
+
+constexpr char kBadFace[] = "face with a corner that is not finite or not there left out";
+
+TEST_F(Assimp, FacesWithCornersThatAreNotFiniteAreLeftOut) {
+  const auto expected = trianglesOf(loadBytes("stl", squareStl({})));
+  ASSERT_EQ(expected.size(), 2u);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+
+  std::uint64_t count = 0;
+  for (const std::vector<float>& corner :
+       {std::vector{nan, 0.0f, 0.0f}, std::vector{0.0f, 1.0f, infinite}}) {
+    const auto found = trianglesOf(loadBytes("stl", squareStl(corner)));
+    EXPECT_EQ(warned(kBadFace), ++count);
+
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(found[i].corners[k], expected[i].corners[k]);
+        EXPECT_EQ(found[i].normals[k], expected[i].normals[k]);
+      }
+    }
+  }
+
+  const std::string strict = errorIfStrict(save("m.stl", squareStl({nan, 0, 0})));
+  EXPECT_TRUE(hasText(strict, kBadFace)) << strict;
+}
+
+TEST_F(Assimp, FacesOfOffWithBadCornersAreCounted) {
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+  // The first quadrilateral has a corner that is beyond the range of floats.
+  const SceneDescription far =
+      loadBytes("off", "OFF\n6 2 0\n" + vertices + "2 0 1e39\n2 1 0\n4 1 4 5 2\n4 0 1 2 3\n");
+  EXPECT_EQ(trianglesOf(far).size(), 2u);
+  EXPECT_EQ(kinds(), kBadFace + std::string("\n"));
+  EXPECT_EQ(warned(kBadFace), 1u);
+
+  loadBytes("off", "OFF\n4 1 0\n" + vertices + "4 0 1 2 7\n");
+  EXPECT_EQ(warned("vertex index out of range replaced by the last vertex"), 1u);
+}
+
+TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
+  const std::string file = "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string error =
+      errorOf([&] { EXPECT_TRUE(trianglesOf(loadBytes("off", file)).empty()); });
+  EXPECT_TRUE(error == "no error" || hasText(error, "it has no faces")) << error;
 }
 
 TEST_F(Assimp, BadFilesEndWithAnError) {

@@ -68,7 +68,6 @@ void separateCorners(aiMesh& mesh) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     for (unsigned k = 0; k < mesh.mFaces[i].mNumIndices; ++k) {
       unsigned& index = mesh.mFaces[i].mIndices[k];
-      if (index >= mesh.mNumVertices) index = 0;
       vertices.push_back(std::exchange(index, static_cast<unsigned>(vertices.size())));
     }
   }
@@ -83,14 +82,26 @@ bool isFinite(const aiVector3D& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// JSON has neither numbers that are not finite nor text that is not UTF-8.
-void makeFinite(aiMesh& mesh, std::uint32_t& notes) {
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    if (!isFinite(mesh.mVertices[i])) {
-      mesh.mVertices[i] = {};
-      notes |= kPositionMended;
-    }
+// Returns how many faces it leaves out because of their corners, before the library joins those
+// with others.
+std::uint32_t leaveOutBadFaces(aiMesh& mesh) {
+  const auto isBad = [&](const aiFace& face) {
+    return std::any_of(face.mIndices, face.mIndices + face.mNumIndices, [&](unsigned vertex) {
+      return vertex >= mesh.mNumVertices || !isFinite(mesh.mVertices[vertex]);
+    });
+  };
 
+  aiFace* const end = mesh.mFaces + mesh.mNumFaces;
+  const auto left = static_cast<std::uint32_t>(end - std::remove_if(mesh.mFaces, end, isBad));
+  mesh.mNumFaces -= left;
+  return left;
+}
+
+// JSON has neither numbers that are not finite nor text that is not UTF-8. Positions that are not
+// finite belong to no face.
+void makeFinite(aiMesh& mesh) {
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    if (!isFinite(mesh.mVertices[i])) mesh.mVertices[i] = {};
     if (mesh.mNormals && !isFinite(mesh.mNormals[i])) mesh.mNormals[i] = {};
     for (aiVector3D* const uvs : mesh.mTextureCoords) {
       if (uvs && !isFinite(uvs[i])) uvs[i] = {};
@@ -248,7 +259,13 @@ void turnUp(aiScene& scene) {
   root = up == 2 ? fromZ : fromX;
 }
 
-// Writes a 1, the notes and the GLB, or a 0 and the library's error message.
+// Where an OFF file has no such vertex, the library takes the last one and only logs it.
+void noteLog(const char* message, char* isMended) {
+  if (std::strstr(message, "ertex index is out of range")) *isMended = 1;
+}
+
+// Writes a 1, the notes, how many faces are left out and the GLB, or a 0 and the library's error
+// message.
 void convert(const std::string& bytes, const std::string& extension, const ConfinedWriter& write) {
   const auto fail = [&](const std::string& why) {
     const char failed = 0;
@@ -256,13 +273,19 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
     write(why.data(), why.size());
   };
 
+  char isMended = 0;
+  const aiLogStream log{noteLog, &isMended};
+  aiAttachLogStream(&log);
+
   const aiScene* imported = importScene(bytes, extension);
   if (!imported) {
     fail(aiGetErrorString());
     return;
   }
+  std::uint32_t badFaces = 0;
   for (unsigned i = 0; i < imported->mNumMeshes; ++i) {
     aiMesh& mesh = *imported->mMeshes[i];
+    badFaces += leaveOutBadFaces(mesh);
     if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
   }
 
@@ -285,8 +308,9 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   // The scene is adapted to what glTF can express; `notes` records what is lost.
   auto& scene = *const_cast<aiScene*>(imported);
   std::uint32_t notes = scene.mNumLights + scene.mNumCameras > 0 ? kViewLeftOut : 0u;
+  if (isMended != 0) notes |= kIndexMended;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    makeFinite(*scene.mMeshes[i], notes);
+    makeFinite(*scene.mMeshes[i]);
     makeLinear(*scene.mMeshes[i]);
     makePrintable(scene.mMeshes[i]->mName);
   }
@@ -303,6 +327,7 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   }
   write("\1", 1);
   write(&notes, sizeof notes);
+  write(&badFaces, sizeof badFaces);
   write(blob->data, blob->size);
 }
 
@@ -325,13 +350,14 @@ ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes
   // The answer has the form in which convert() writes it.
   ConvertedModel model;
   const std::string& reply = answer.bytes;
-  constexpr std::size_t kHead = 1 + sizeof model.notes;
+  constexpr std::size_t kHead = 1 + sizeof model.notes + sizeof model.badFaces;
   if (!answer.failure.empty()) {
     model.failure = answer.failure;
   } else if (reply.size() < kHead || reply[0] != 1) {
     model.failure = reply.empty() ? "it said nothing" : excerpt(reply.substr(1));
   } else {
     std::memcpy(&model.notes, reply.data() + 1, sizeof model.notes);
+    std::memcpy(&model.badFaces, reply.data() + 1 + sizeof model.notes, sizeof model.badFaces);
     model.glb = reply.substr(kHead);
   }
 
@@ -361,10 +387,12 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
       {kViewLeftOut, "cameras and lights of a model left out"},
       {kMapLeftOut, "map of a kind that is not read from such files left out"},
       {kMadeOpaque, "material that the file calls invisible made opaque"},
-      {kPositionMended, "position that is not finite moved to the origin"}};
+      {kIndexMended, "vertex index out of range replaced by the last vertex"}};
   for (const auto& [bit, text] : kNotes) {
     if ((model.notes & bit) != 0) source.warnings.add(text, file);
   }
+  source.warnings.add("face with a corner that is not finite or not there left out", file,
+                      model.badFaces);
 
   return openGltf(source, model.glb);
 }

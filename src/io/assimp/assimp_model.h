@@ -12,13 +12,13 @@ enum AssimpNote : std::uint32_t {
   kViewLeftOut = 2,
   kMapLeftOut = 4,
   kMadeOpaque = 8,
-  kPositionMended = 16,
+  kIndexMended = 16,
 };
 
 // A model as GLB, or an empty text and what went wrong.
 struct ConvertedModel {
   std::string glb, failure;
-  std::uint32_t notes = 0;
+  std::uint32_t notes = 0, badFaces = 0;
 };
 
 // Converts `bytes`, the content of the file of that name, in a child process that can only compute
