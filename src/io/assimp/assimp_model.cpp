@@ -354,7 +354,7 @@ ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes
   if (!answer.failure.empty()) {
     model.failure = answer.failure;
   } else if (reply.size() < kHead || reply[0] != 1) {
-    model.failure = reply.empty() ? "it said nothing" : excerpt(reply.substr(1));
+    model.failure = reply.empty() ? "it said nothing" : "it reports: " + excerpt(reply.substr(1));
   } else {
     std::memcpy(&model.notes, reply.data() + 1, sizeof model.notes);
     std::memcpy(&model.badFaces, reply.data() + 1 + sizeof model.notes, sizeof model.badFaces);
@@ -376,7 +376,11 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string file = source.path.string();
   const std::string bytes = readFile(source.path, source.budget.left() / 2);
   const MemoryHold hold(&source.budget, bytes.size(), 1, file);
-  const ConvertedModel model = convertByAssimp(file, bytes, source.budget.left() / 2);
+
+  // A damaged file may take the library any memory, but a sound one little beside its size.
+  const std::uint64_t most = (512 + bytes.size() / 2048) << 20;
+  const ConvertedModel model =
+      convertByAssimp(file, bytes, std::min(most, source.budget.left() / 2));
 
   if (!model.failure.empty()) {
     throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);
