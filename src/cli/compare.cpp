@@ -34,19 +34,20 @@ constexpr const char* kCompareSummary =
     "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two. Without "
     "--tolerance up to 5 % of the pixels may differ by 2 codes or more, and the energy by 2 %. Or "
     "measures how the image file A differs from B, the reference: two files fail by --tolerance "
-    "only. Channels that both have are compared as well.";
+    "only. Channels are compared as well, alpha among them; without alpha a picture is opaque.";
 
 struct CompareJob {
   CommonOptions common;
   std::vector<std::string> subjects;
   std::optional<double> tolerance;
-  bool stages = false;
+  bool stages = false, colors = false;
   std::string heatmap, json;
 };
 
-// The comparison of a channel that both pictures have.
+// The comparison of a channel. One that a picture lacks differs everywhere.
 struct ChannelDifference {
-  std::string name;  // "depth.Z"
+  std::string name;    // "depth.Z"
+  std::string onlyIn;  // "A" or "B", if the other picture lacks it
   bool countsThings = false;
   ValueDifference difference;
 };
@@ -70,8 +71,12 @@ OptionList listOptions(CompareJob& job) {
   OptionList list;
   list.group("Comparing");
   list.flag("stages", "also each vector stage with its scalar reference", job.stages);
-  list.value({"tolerance", "X", 0}, "largest RMSE that passes; else the exit status is 1",
-             job.tolerance);
+  list.value(
+      {"tolerance", "X", 0},
+      "largest RMSE of the colors, and of each channel, that passes; else the exit status is "
+      "1. Numbers of things have to be equal",
+      job.tolerance);
+  list.flag("colors", "the colors alone, without alpha and channels", job.colors);
   list.value({"heatmap", "FILE"},
              "PNG of the differences: black is 0, light yellow 16 8-bit steps or more",
              job.heatmap);
@@ -148,33 +153,41 @@ Compared compareModes(const CompareJob& job) {
   return result;
 }
 
-// Compares the channels that both images have with values of one kind. The images have one size.
-std::vector<ChannelDifference> compareChannels(const Compared& compared) {
-  std::vector<ChannelDifference> differences;
-  for (const ImageLayer& a : compared.layersA) {
-    const auto b = std::ranges::find_if(compared.layersB, [&](const ImageLayer& layer) {
-      return layer.name == a.name && layer.countsThings == a.countsThings;
+// Adds a row for each channel, and where `isA` is false only for those that the others lack. The
+// images have one size; one without alpha is opaque.
+void compareChannels(const std::vector<ImageLayer>& layers, const std::vector<ImageLayer>& others,
+                     bool isA, std::vector<ChannelDifference>& rows) {
+  for (const ImageLayer& layer : layers) {
+    const auto other = std::ranges::find_if(others, [&](const ImageLayer& o) {
+      return o.name == layer.name && o.countsThings == layer.countsThings;
     });
-    if (b == compared.layersB.end()) continue;
+    const bool isAlone = other == others.end();
+    if (!isAlone && !isA) continue;
 
-    ChannelDifference& row = differences.emplace_back();
-    row.name = a.name;
-    row.countsThings = a.countsThings;
-    if (a.countsThings) {
-      row.difference = differenceOf(a.words, b->words);
+    ChannelDifference& row = rows.emplace_back();
+    row.name = layer.name;
+    row.countsThings = layer.countsThings;
+    if (isAlone && layer.name == "A") {
+      row.difference = differenceOf(layer.floats(), std::vector<float>(layer.words.size(), 1.0f));
+    } else if (isAlone) {
+      row.onlyIn = isA ? "A" : "B";
+      row.difference = {layer.words.size(), 0, kInfinity, kInfinity};
+    } else if (layer.countsThings) {
+      row.difference = differenceOf(layer.words, other->words);
+      row.difference.incomparable = row.difference.differing;  // numbers have no distance
     } else {
-      row.difference = differenceOf(a.floats(), b->floats());
+      row.difference = differenceOf(layer.floats(), other->floats());
     }
   }
-  return differences;
 }
 
 void printChannels(FILE* out, const std::vector<ChannelDifference>& channels) {
   if (channels.empty()) return;
-  std::fprintf(out, "\n%-20s%18s%14s%14s%14s\n", "channel", "pixels differing", "incomparable",
+  std::fprintf(out, "\n%-28s%18s%14s%14s%14s\n", "channel", "pixels differing", "incomparable",
                "largest", "RMS");
   for (const ChannelDifference& c : channels) {
-    std::fprintf(out, "%-20s%18llu", printable(c.name).c_str(),
+    const std::string name = c.onlyIn.empty() ? c.name : c.name + ", only in " + c.onlyIn;
+    std::fprintf(out, "%-28s%18llu", printable(name).c_str(),
                  static_cast<unsigned long long>(c.difference.differing));
     if (!c.countsThings) {
       std::fprintf(out, "%14llu%14.6g%14.6g",
@@ -266,6 +279,22 @@ bool channelsDiffer(const std::vector<ChannelDifference>& channels) {
                              [](const ChannelDifference& c) { return c.difference.differing > 0; });
 }
 
+// Channels are judged by --tolerance only.
+bool channelsPass(const CompareJob& job, const std::vector<ChannelDifference>& channels) {
+  if (!job.tolerance) return true;
+
+  for (const auto& [name, onlyIn, countsThings, d] : channels) {
+    const double rmse = d.incomparable > 0 ? kInfinity : d.rms;
+    if (rmse <= *job.tolerance) continue;
+    std::fprintf(stderr,
+                 "whit: the RMSE of the channel %s is %.6g, and --tolerance %g (--colors compares "
+                 "the colors alone)\n",
+                 printable(name).c_str(), rmse, *job.tolerance);
+    return false;
+  }
+  return true;
+}
+
 // Sums up the comparison for people. A code is a step of 8-bit sRGB.
 std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
   const ImageDifference& d = c.difference;
@@ -307,6 +336,7 @@ Json compareJson(const Compared& compared) {
 
   for (const ChannelDifference& c : comparison.channels) {
     Json row{{"channel", c.name}, {"pixels_differing", c.difference.differing}};
+    if (!c.onlyIn.empty()) row["only_in"] = c.onlyIn;
     if (!c.countsThings) {
       row["pixels_incomparable"] = c.difference.incomparable;
       row["max"] = c.difference.largest;
@@ -341,7 +371,11 @@ int compareCommand(const Words& words) {
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
   compared.numbers.difference =
       compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
-  compared.numbers.channels = compareChannels(compared);
+  if (!job.colors) {
+    std::vector<ChannelDifference>& rows = compared.numbers.channels;
+    compareChannels(compared.layersA, compared.layersB, true, rows);
+    compareChannels(compared.layersB, compared.layersA, false, rows);
+  }
 
   // Where JSON takes standard output, the tables for people go to standard error.
   FILE* const people = job.json == "-" ? stderr : stdout;
@@ -357,11 +391,12 @@ int compareCommand(const Words& words) {
 
   // With --stages, each column that a vector stage writes must be within its limit as well.
   const bool pictures = picturesPass(job, compared.numbers.difference);
+  const bool channels = channelsPass(job, compared.numbers.channels);
   const bool stages = !compared.numbers.stages ||
                       std::ranges::all_of(*compared.numbers.stages, [](const StageDifference& row) {
                         return row.worstUlp <= row.limitUlp;
                       });
-  const bool passed = stages && pictures;
+  const bool passed = stages && pictures && channels;
 
   if (people == stdout || !job.common.quiet) {
     std::fprintf(people, "%s\n", verdict(job, compared.numbers, passed).c_str());

@@ -147,7 +147,9 @@ TEST_F(Channels, AreComparedExactly) {
       succeed({"compare", folder_ / "a.exr", folder_ / "b.exr", "--json", folder_ / "c.json"});
   EXPECT_TRUE(hasText(outcome.out, "object.id"));
   const Json channels = Json::parse(readFile(folder_ / "c.json"))["channels"];
-  ASSERT_EQ(channels.size(), 3u);  // the channels that both files have
+  ASSERT_EQ(channels.size(), 6u);  // the channels that both files have, and the others
+  EXPECT_FALSE(channels[2].contains("only_in"));
+  EXPECT_EQ(channels[5]["only_in"], "B");
 
   Warnings warnings;
   // The number of pixels that differ is counted once more by hand.

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "command_json.h"
 #include "command_line/program.h"
 #include "has_text.h"
 #include "run_command.h"
@@ -257,10 +258,53 @@ TEST_F(Program, CompareSaysThatOnlyChannelsDiffer) {
   succeed(joined(black, {"--eye", "0,0,5", "-o", a}));
   succeed(joined(black, {"--eye", "0,0,6", "-o", b}));
 
-  const Outcome compared = succeed({"compare", a, b, "--tolerance", "0"});
+  const Outcome compared = runWhit({"compare", a, b, "--tolerance", "0"});
+  EXPECT_EQ(compared.status, 1);
   EXPECT_TRUE(compared.out.ends_with(
-      "verdict: the colors are the same, bit for bit, but channels differ; passed\n"))
+      "verdict: the colors are the same, bit for bit, but channels differ; FAILED\n"))
       << compared.out;
+  EXPECT_TRUE(hasText(compared.err, "the RMSE of the channel depth.Z is ")) << compared.err;
+  succeed({"compare", a, b});  // measured, not judged
+  succeed({"compare", a, b, "--tolerance", "0", "--colors"});
+}
+
+// A scene without light is black wherever nothing is hit, so only alpha tells two backgrounds
+// apart.
+TEST_F(Program, CompareCountsAlphaAndChannels) {
+  const std::string a = folder_ / "a.png", b = folder_ / "b.png", c = folder_ / "c.exr";
+  const Words black{"render", tiny_, "--set", "/lights/0/intensity=[0, 0, 0]", "--eye", "0,9,20"};
+  succeed(joined(black, {"--background", "transparent", "-o", a}));
+  succeed(joined(black, {"-o", b}));
+  succeed(joined(black, {"--channels", "depth,object", "-o", c}));
+
+  // A picture without alpha is opaque.
+  for (const Words& files : {Words{a, b}, Words{b, a}}) {
+    const Outcome compared = runWhit(joined({"compare"}, joined(files, {"--tolerance", "0"})));
+    EXPECT_EQ(compared.status, 1);
+    EXPECT_TRUE(hasText(compared.err, "the RMSE of the channel A is ")) << compared.err;
+  }
+  const Json alpha = Json::parse(succeed({"compare", a, b, "--json", "-"}).out)["channels"];
+  ASSERT_EQ(alpha.size(), 1u);
+  EXPECT_EQ(alpha[0]["channel"], "A");
+  EXPECT_GT(alpha[0]["pixels_differing"], 0);
+  EXPECT_EQ(alpha[0]["max"], 1);
+
+  // What only one file has fails at any tolerance.
+  const Outcome lacking = runWhit({"compare", b, c, "--tolerance", "9", "--json", "-"});
+  EXPECT_EQ(lacking.status, 1);
+  EXPECT_TRUE(hasText(lacking.err, "the RMSE of the channel depth.Z is inf, and --tolerance 9"));
+  EXPECT_TRUE(hasText(lacking.err, "object.id, only in B")) << lacking.err;
+  const Json channels = Json::parse(lacking.out)["channels"];
+  ASSERT_EQ(channels.size(), 3u);
+  for (const Json& channel : channels) {
+    EXPECT_EQ(channel["only_in"], "B");
+    EXPECT_EQ(channel["pixels_differing"], 48 * 32);
+  }
+  succeed({"compare", b, c, "--tolerance", "9", "--colors"});
+
+  // A background of one color is opaque in a PNG.
+  succeed(joined(black, {"--background", "black", "-o", a}));
+  succeed({"compare", a, b, "--tolerance", "0"});
 }
 
 // Packets flush numbers below the least normal one to zero, and the reference keeps them: a scene

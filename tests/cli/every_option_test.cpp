@@ -328,19 +328,22 @@ constexpr OwnOption kOwnOptions[] = {
     {"scenes", "", "--json -", "\"scenes\""},
 };
 
-// These options are tested together with others: EffectsCommand, TurntableCommand and Variants.
+// These options are tested together with others: EffectsCommand, TurntableCommand, Variants and
+// Program.CompareCountsAlphaAndChannels.
 const Names kTestedElsewhere{"--out of effects", "--frames of effects", "--turns of turntable",
-                             "--count of turntable"};
+                             "--count of turntable", "--colors of compare"};
 // Every command has these: Help, Program.QuietSaysNothing, Terminal and Models.
 const Names kOfAllCommands{"--help", "--help-all", "--quiet", "--progress", "--variant"};
 
 TEST_F(EveryOption, OfACommandSaysSomething) {
   // Two crops that overlap and disagree there.
-  for (const char* part :
-       {"-o @low.exr --crop 0,0,48,20", "-o @high.exr --crop 0,16,48,32 --depth 0"}) {
+  for (const char* part : {"-o @low.exr --crop 0,0,48,20", "-o @high.exr --crop 0,16,48,32"}) {
     const Outcome outcome = runHere("render", wordsOf(std::string("@tiny.json --quiet ") + part));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
+  Image high = readImage(folder_ / "high.exr", ImageLimits());
+  high.at(24, 18) += Rgb(1.0f);
+  writeExr(folder_ / "high.exr", high, {});
 
   const auto saidBy = [&](const OwnOption& row, const std::string& option) {
     const Outcome outcome = runHere(row.command, wordsOf(row.before + (" " + option)));

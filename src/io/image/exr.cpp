@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -470,6 +471,20 @@ void writeTo(Imf::OStream& out, const Image& image, const Imf::Header& header, E
   }
 }
 
+// Returns the alpha of an image in another format, if it has some.
+std::vector<ImageLayer> alphaLayer(const std::string& path, const ImageLimits& limits) {
+  Warnings unused;
+  const RawImage raw = readRawImage(path, limits, unused);
+  if (raw.linear || raw.channels % 2 != 0) return {};
+
+  ImageLayer alpha{"A", false, {}};
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  for (std::size_t i = channels - 1; i < raw.codes.size(); i += channels) {
+    alpha.words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(raw.codes[i]) / 255));
+  }
+  return {alpha};
+}
+
 }  // namespace
 
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
@@ -500,7 +515,7 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
 }
 
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
-  if (!isExrFile(path)) return {};
+  if (!isExrFile(path)) return alphaLayer(path, limits);
   return reading(path, [&](ExrFile& file) {
     std::vector<ImageLayer> layers;
     const ExrChannels channels = layerChannels(path, file.header().channels());

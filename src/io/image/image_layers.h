@@ -15,7 +15,7 @@ namespace whit {
 
 // Reads all channels of an EXR's first part except the colors (R, G, B, or Y, RY, BY), in the
 // order of their names, for the part of the data window that lies inside the display window, as
-// readImage() does. Half floats become floats. Returns no layers for other formats. Throws as
+// readImage() does. Half floats become floats. Other formats have at most alpha, "A". Throws as
 // readImage() does, and badScene for a subsampled channel.
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits);
 
