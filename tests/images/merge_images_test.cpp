@@ -92,5 +92,53 @@ TEST_F(MergeImages, KeepsTheTextThatAllPartsAgreeOn) {
   EXPECT_EQ(merge({all, all}).metadata, merged.metadata);
 }
 
+// Text by which whit describes a picture, and what merging such a part with one of kText says;
+// empty if it merges.
+struct OtherText {
+  const char *key, *value, *refusal;
+};
+const ImageMetadata kText{{"software", "whit 1"}, {"scene", "tiny"},    {"spp", "4"},
+                          {"simd", "a"},          {"packet", "4"},      {"exposure", "0"},
+                          {"exr", "half"},        {"sceneDigest", "12"}};
+
+TEST_F(MergeImages, RefusesPartsOfOtherPictures) {
+  constexpr OtherText kOthers[] = {{"spp", "16", "spp"},
+                                   {"disable", "shadows", "disable"},
+                                   {"sceneDigest", "34", "sceneDigest"},
+                                   {"sceneDigest", "", "sceneDigest"},
+                                   {"crop", "0,3,8,6", ""},
+                                   {"simd", "b", ""},
+                                   {"packet", "8", ""},
+                                   {"exposure", "2", ""},
+                                   {"camera", "front", "camera"},
+                                   {"exr", "", ""},
+                                   {"scene", "copy", "scene"},
+                                   {"software", "whit 2", ""}};
+  const std::string first = part("a.exr", {0, 0, 8, 3}, 0, 8, kText);
+
+  for (const OtherText& other : kOthers) {
+    ImageMetadata text = kText;
+    std::erase_if(text, [&](const auto& entry) { return entry.first == other.key; });
+    if (*other.value != 0) text.emplace_back(other.key, other.value);
+    const std::string second = part("b.exr", {0, 3, 8, 6}, 0, 8, text);
+
+    std::string refusal;
+    try {
+      merge({first, second});
+    } catch (const Error& e) {
+      EXPECT_EQ(e.status(), ExitStatus::usage);
+      refusal = e.what();
+    }
+    const std::string expected = "'" + second + "' and '" + first +
+                                 "' are parts of different pictures: they differ in " +
+                                 other.refusal;
+    EXPECT_EQ(refusal, *other.refusal == 0 ? "" : expected) << other.key << " " << other.value;
+  }
+
+  // Parts that say nothing, as other programs write them, are merged.
+  const std::string bare = part("c.exr", {0, 3, 8, 6});
+  EXPECT_EQ(statusOf([&] { merge({first, bare}); }), ExitStatus::done);
+}
+
 }  // namespace
 }  // namespace whit

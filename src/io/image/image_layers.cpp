@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "core/display.h"
@@ -101,19 +102,42 @@ std::string place(int x, int y) { return concat("(", x, ", ", y, ")"); }
 
 std::string sizeText(const Image& image) { return concat(image.width, "x", image.height); }
 
-void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& layers,
-                       const std::string& firstPath, const std::vector<ImageLayer>& firstLayers) {
-  const auto require = [](const std::vector<ImageLayer>& all, const ImageLayer& wanted,
-                          const std::string& lacks, const std::string& has) {
+// Throws if a part lacks a layer that another one has.
+void requireLayers(const std::string& path, const std::vector<ImageLayer>& layers,
+                   const std::string& otherPath, const std::vector<ImageLayer>& others) {
+  for (const ImageLayer& wanted : others) {
     const auto isWanted = [&](const ImageLayer& l) {
       return l.name == wanted.name && l.countsThings == wanted.countsThings;
     };
-    if (std::ranges::any_of(all, isWanted)) return;
-    throwUsage(lacks + ": lacks the channel " + wanted.name + ", which '" + has + "' has");
-  };
+    if (std::ranges::any_of(layers, isWanted)) continue;
+    throwUsage(path + ": lacks the channel " + wanted.name + ", which '" + otherPath + "' has");
+  }
+}
 
-  for (const ImageLayer& layer : firstLayers) require(layers, layer, path, firstPath);
-  for (const ImageLayer& layer : layers) require(firstLayers, layer, firstPath, path);
+// Text that may differ between parts of one picture: it follows from other text or from the layers,
+// or it is about the part, the machine, or the display of the picture.
+constexpr std::array kMayDiffer{"software", "effectsUsed", "crop",     "quality",  "packet",
+                                "simd",     "effects",     "exposure", "tonemap",  "strict",
+                                "exr",      "channels",    "objects",  "materials"};
+
+// Throws if two parts say that they show different scenes or were made with different options. A
+// part without text, as other programs write, says nothing.
+void requireSamePicture(const std::string& path, const ImageMetadata& own,
+                        const std::string& firstPath, const ImageMetadata& first) {
+  if (own.empty() || first.empty()) return;
+
+  std::set<std::string> differing;
+  for (const ImageMetadata* text : {&own, &first}) {
+    for (const auto& entry : *text) {
+      const bool isShared = contains(own, entry) && contains(first, entry);
+      if (!isShared && !contains(kMayDiffer, entry.first)) differing.insert(entry.first);
+    }
+  }
+
+  if (differing.empty()) return;
+  throwUsage("'" + path + "' and '" + firstPath +
+             "' are parts of different pictures: they differ in " +
+             joined({differing.begin(), differing.end()}));
 }
 
 // Copies the part's window, layers included, which are in the order of their names.
@@ -249,7 +273,7 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   MergedImage merged;
   Image& image = merged.image;
   std::vector<bool> covered;
-  bool isFirstExr = true;
+  std::string firstExr;
 
   for (const std::string& path : paths) {
     const Image part = readImage(path, limits);
@@ -266,13 +290,18 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
                  "' is of a " + sizeText(image) + " one");
     }
 
-    requireSameLayers(path, layers, paths[0], merged.layers);
+    requireLayers(path, layers, paths[0], merged.layers);
+    requireLayers(paths[0], merged.layers, path, layers);
     addPart(path, part, layers, merged, covered, warnings);
 
     // Only metadata on which all EXR parts agree are kept.
     if (extensionOf(path) != ".exr") continue;
     const ImageMetadata own = readExrMetadata(path);
-    if (std::exchange(isFirstExr, false)) merged.metadata = own;
+    if (firstExr.empty()) {
+      firstExr = path;
+      merged.metadata = own;
+    }
+    requireSamePicture(path, own, firstExr, merged.metadata);
     std::erase_if(merged.metadata, [&](const auto& entry) {
       return entry.first == "crop" || !contains(own, entry);
     });

@@ -59,9 +59,9 @@ struct MergedImage {
 
 // Puts the files' data windows together, layers included. Throws Error(usage) when there are no
 // files, when their display windows differ in size, when a part lacks a layer that another one has,
-// or when some pixel is in none of them; and what readImage and readLayers throw.
-// Where parts overlap, the later one wins; pixels whose bits differ there are counted in
-// `warnings`.
+// when the text of two EXR parts is of different scenes or options, or when some pixel is in none
+// of them; and what readImage and readLayers throw. Where parts overlap, the later one wins; pixels
+// whose bits differ there are counted in `warnings`.
 MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits& limits,
                         Warnings& warnings);
 
