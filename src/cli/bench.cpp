@@ -80,7 +80,7 @@ OptionList listOptions(BenchJob& job) {
   for (const auto i : indices(job.wanted))
     list.flag(kSeries[i].flag, kSeries[i].help, job.wanted[i]);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
-  list.value({"csv", "FILE"}, "all runs as a table, a line each", job.csv);
+  list.value({"csv", "FILE"}, "all runs as a table, a line each; - is standard output", job.csv);
 
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -112,7 +112,8 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
 
 void checkJob(const BenchJob& job) {
   requireJsonWritable(job.json);
-  if (!job.csv.empty()) requireWritable(job.csv, {".csv"});
+  if (!job.csv.empty() && job.csv != "-") requireWritable(job.csv, {".csv"});
+  refuseIf(job.csv == "-" && job.json == "-", "--json - and --csv -: standard output takes one");
   const Series& series = job.series();
   const bool compares = &series != &kOneRun;
   refuseIf(job.reference() && (job.floor || compares),
@@ -198,8 +199,8 @@ int benchCommand(const Words& words) {
   }
   progress.reset();
 
-  // Where JSON takes standard output, the tables for people go to standard error.
-  FILE* const people = job.json == "-" ? stderr : stdout;
+  // Where JSON or CSV takes standard output, the tables for people go to standard error.
+  FILE* const people = job.json == "-" || job.csv == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) {
       std::fprintf(people, "%s\n", stageTable(run).c_str());
@@ -214,10 +215,7 @@ int benchCommand(const Words& words) {
   }
 
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().isPair));
-  if (!job.csv.empty()) {
-    const WriteScope scope;
-    writeTextFile(job.csv, benchCsv(summaries));
-  }
+  if (!job.csv.empty()) writeReport(job.csv, benchCsv(summaries));
   printWrittenFiles({job.json, job.csv}, job.common);
   return 0;
 }

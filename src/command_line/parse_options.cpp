@@ -116,7 +116,9 @@ void takeCameraFile(const std::string& file, CommonOptions& common) {
   object.need("at");
   Camera camera;
   readCamera(object, camera);
-  if (!object.has("motion")) object.finish();
+  SceneDescription unused;
+  readMotion(object, {}, unused);
+  object.finish();
 
   const std::string name = std::filesystem::path(file).stem().string();
   common.load.settings.push_back("/cameras/" + escapePointer(name) + "=" + textOf(document.root));
@@ -125,6 +127,10 @@ void takeCameraFile(const std::string& file, CommonOptions& common) {
 
 // Turns the options of a model's view into members of its scene.
 void takeView(CommonOptions& common) {
+  refuseIf(
+      (common.azimuth || common.zoom) && common.given.contains("camera"),
+      "--azimuth and --zoom place the camera that a model is supplied with: leave out --camera");
+
   const auto set = [&](const std::string& text) { common.load.settings.push_back(text); };
   if (common.azimuth) set("/azimuth=" + shortest(*common.azimuth));
   if (common.zoom) set("/zoom=" + shortest(*common.zoom));

@@ -131,7 +131,10 @@ void writeJson(const std::string& path, const Json& json) {
   all.update(json);
 
   // Names in a scene may hold any bytes; what is no UTF-8 is replaced.
-  const std::string text = all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  writeReport(path, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void writeReport(const std::string& path, const std::string& text) {
   if (path == "-") {
     std::fputs(text.c_str(), stdout);
     return;

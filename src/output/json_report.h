@@ -26,5 +26,7 @@ Json runJson(const RunSummary& run);
 // Writes an object, with the number of the format as its first member: "schema", which changes when
 // a key is renamed or gets another meaning. "-" is standard output. Throws Error(io).
 void writeJson(const std::string& path, const Json& json);
+// Writes a text in the same way.
+void writeReport(const std::string& path, const std::string& text);
 
 }  // namespace whit

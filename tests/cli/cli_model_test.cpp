@@ -153,6 +153,12 @@ TEST_F(Models, TakeACameraFromAFile) {
 
   std::ofstream(pose) << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3})";
   expectFailure({"info", model_, "--camera", pose}, 3, "pose.json#/lens: ");
+  std::ofstream(pose)
+      << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "motion": {"keys": [{"time": "soon"}]}})";
+  expectFailure({"info", model_, "--camera", pose}, 3, "pose.json#/motion/keys/0/time: ");
+  std::ofstream(pose)
+      << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3, "motion": {"keys": [{"time": 0}]}})";
+  expectFailure({"info", model_, "--camera", pose}, 3, "pose.json#/lens: ");
   std::ofstream(pose) << "{\n\"eye\" [";
   expectFailure({"info", model_, "--camera", pose}, 3, "pose.json:2");
   EXPECT_EQ(runWhit({"info", model_, "--camera", folder_ / "none.json"}).status, 4);
