@@ -131,11 +131,11 @@ class Chooser {
     // combination corrects the scale, after which another one may be better.
     for (int round = 0; round < kRounds; ++round) {
       scale_ *= prober_.wholePictureMs(optionsOf(best), kPictureShare) / best.total.cost;
+      complete(best, leftMs());
       const Combination next = search();
       const bool same = next.levels == best.levels;
-      // The last round keeps the combination whose time was measured.
-      if (same || round + 1 < kRounds) best = next;
-      complete(best, leftMs());
+      // The last round keeps the combination whose time was measured, if that fits.
+      if (same || round + 1 < kRounds || isTooSmallFor(best)) best = next;
       if (same) break;
     }
 
@@ -323,7 +323,8 @@ class Chooser {
     std::vector<Image> shown{first.image};
     for (std::size_t i = 1; i < knob.levels.size(); ++i) {
       const bool isLate = timed() && clock_.ms() > kMostProbeShare * budget_.ms;
-      if (isLate && (i > 1 || probeSpp_ > 1)) {
+      const bool isOff = knob.levels[i].value == knob.off;  // the budget may be for nothing else
+      if (isLate && !isOff && (i > 1 || probeSpp_ > 1)) {
         knob.levels.resize(i);
         break;
       }
@@ -415,7 +416,22 @@ class Chooser {
     if (const auto best = bestWithin(wanted, most)) return all[*best];
 
     // If nothing fits, we take the cheapest combination, or for a target the most accurate one.
-    return all[bestWithin(timed() ? errors : costs, kInfinity).value_or(0)];
+    Combination nearest = all[bestWithin(timed() ? errors : costs, kInfinity).value_or(0)];
+    if (!timed()) return nearest;
+
+    // Nothing is cheaper than no samples, whatever was measured.
+    for (const auto i : indices(knobs_)) {
+      const KnobLevels& knob = knobs_[i];
+      if (knob.levels.size() > 1 && knob.levels[1].value == knob.off) nearest.levels[i] = 1;
+    }
+    complete(nearest, left);
+    return nearest;
+  }
+
+  // True if the budget is too small for even the least number of samples of the combination.
+  bool isTooSmallFor(const Combination& c) const {
+    const bool isLeast = c.spp == 1 || fixed_.contains("spp");
+    return timed() && isLeast && c.total.cost > kAim * leftMs();
   }
 
   RenderOptions optionsOf(const Combination& c) const {
@@ -454,8 +470,7 @@ class Chooser {
 
     // The note explains a budget or target that is missed, and time that is left over.
     const double left = leftMs();
-    const bool isCheapest = best.spp == 1 || fixed_.contains("spp");
-    if (timed() && isCheapest && r.expectedMs > kAim * left) {
+    if (isTooSmallFor(best)) {
       r.note = "the budget is too small: this is the cheapest choice";
     } else if (timed() && r.expectedMs * (1 + 1.0 / best.spp) < left) {
       r.note = "more time would buy nothing that was measured: the picture is done early";

@@ -137,6 +137,20 @@ TEST(Budgets, ThatAreTooSmallSaySo) {
   EXPECT_EQ(receipt.options.spp, 1);
 }
 
+// Whatever was measured: which of these budgets are too small depends on the machine.
+TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
+  Warnings warnings;
+  LoadOptions soft;
+  soft.settings = {"/lights/0/radius=0.5"};
+  const Scene scene = Scene::finalize(loadScene("matte", soft, warnings), warnings);
+
+  for (double ms = 1; ms <= 64; ms *= 1.5) {
+    const Receipt receipt = chooseFor(scene, {.ms = ms}).receipt;
+    if (receipt.note.find("too small") == std::string::npos) continue;
+    EXPECT_EQ(receipt.options.lightSamples, 1) << ms << " ms";
+  }
+}
+
 // The true error lies within the interval that the receipt estimates from the picture's own
 // samples. Paths lose much light at their ends only if the given depth is small.
 TEST(Budgets, TellTheErrorOfThePicture) {
