@@ -149,6 +149,10 @@ std::string headOf(const Explained& e) {
   for (const auto i : indices(rays)) parts |= e.rays.partsAt(i);
 
   std::string remarks;
+  if (e.options.background.hidesSky()) {
+    remarks += "  the picture shows --background " + backgroundText(e.options.background) +
+               " where rays leave the scene straight on\n";
+  }
   if (parts) remarks += "  their paths part\n";
   if (!e.note().empty()) remarks += "  " + e.note() + "\n";
 

@@ -40,11 +40,6 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
   return inFolder == folder.end() || inFolder->empty();
 }
 
-std::string inLowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 // Returns the relative path `name` as an existing file in `folder` spells it, whatever the
 // capitals.
 std::optional<fs::path> spelledOnDisk(const fs::path& folder, const fs::path& name) {
@@ -173,6 +168,11 @@ std::string createBeside(const std::string& path) {
 }
 
 }  // namespace
+
+std::string inLowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 std::string extensionOf(const fs::path& path) { return inLowerCase(path.extension().string()); }
 

@@ -14,6 +14,7 @@
 
 namespace whit {
 
+std::string inLowerCase(std::string text);
 std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
 
 // Returns the folder $WHIT_DATA; the path is empty where the variable is not set.

@@ -222,6 +222,13 @@ TEST_F(Channels, MotionIsThatOfOneFrame) {
   EXPECT_EQ(nothing, Rgb(0.0f));
 }
 
+TEST_F(Channels, AreNamedInAnyCase) {
+  for (const char* const name : {"a.depth.exr", "a.Depth.exr", "a.DEPTH.exr"}) {
+    succeed({"render", tiny_, "-o", folder_ / name, "--quiet"});
+    EXPECT_EQ(metadataOf(folder_ / name)["channel"], "depth") << name;
+  }
+}
+
 TEST_F(Channels, ResumingAsksForTheSameOnes) {
   const auto kept = [&](const std::string& channels) {
     const Outcome outcome =

@@ -133,6 +133,15 @@ TEST_F(Explain, ExplainsOneSampleOfMany) {
   EXPECT_FALSE(hasText(said, "explains all"));
 }
 
+// The codes are those of the light alone, which has none where a model's background shows.
+TEST_F(Explain, NamesTheBackground) {
+  const auto said = [&](const Words& more) {
+    return succeed(joined({"explain", tiny_, "--pixel", "0,0"}, more)).out;
+  };
+  EXPECT_TRUE(hasText(said({"--background", "c8c8c8"}), "the picture shows --background c8c8c8"));
+  EXPECT_FALSE(hasText(said({}), "the picture shows --background"));
+}
+
 TEST_F(Explain, RefusesWrongUsage) {
   const auto refused = [&](const Words& words, const std::string& because) {
     expectFailure(joined({"explain", tiny_}, words), 2, because);

@@ -201,7 +201,7 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels, ChannelSet wante
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
   if (extensionOf(path) != ".png" && extensionOf(path) != ".exr") return std::nullopt;
 
-  std::string name = std::filesystem::path(path).stem().string();
+  std::string name = inLowerCase(std::filesystem::path(path).stem().string());
   // The frame's number and the separators before it are no part of the channel's name.
   if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
   while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {

@@ -29,7 +29,7 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels,
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
 
 // Returns the channel that a PNG or EXR of this name holds in place of the picture, by the last
-// part of the name before its extension or before a frame's number: "out.depth.png",
+// part of the name, in any case, before its extension or before a frame's number: "out.depth.png",
 // "a.normal-####.exr". A PNG whose name has no other part, as "depth.png", holds a channel that is
 // kept.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
