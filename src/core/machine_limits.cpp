@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -97,6 +98,20 @@ double freeMemory(const fs::path& group, const char* limitFile, const char* usag
   return std::max(limit - used, 0.0);
 }
 
+// A number in the environment, 0 without one.
+double given(const char* name) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? 0 : std::atof(text);
+}
+
+// Bytes that Slurm gives its job on this machine.
+double memoryOfSlurm() {
+  // One of the two limits is there.
+  const double megabytes =
+      given("SLURM_MEM_PER_NODE") + given("SLURM_MEM_PER_CPU") * given("SLURM_CPUS_ON_NODE");
+  return megabytes > 0 ? megabytes * (1 << 20) : kNoLimit;
+}
+
 }  // namespace
 
 double cgroupQuota(const std::string& membership, const fs::path& root) {
@@ -147,7 +162,7 @@ int usableThreads() {
 
 std::uint64_t defaultMaxMemory() {
   const double left = memoryLeft(textOf("/proc/meminfo"), membershipOfThisProcess(), kGroupsFolder);
-  return static_cast<std::uint64_t>(std::min(kMostMemory, left));
+  return static_cast<std::uint64_t>(std::min({kMostMemory, left, memoryOfSlurm()}));
 }
 
 }  // namespace whit

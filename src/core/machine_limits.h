@@ -14,7 +14,8 @@ int usableThreads();
 int affinityThreads();
 
 // The limit of memory for a scene where the user sets none: what memoryLeft() finds for this
-// process, at most 16 * 10^9 bytes.
+// process, at most 16 * 10^9 bytes, and what Slurm gives its job, which no control group need
+// bound.
 std::uint64_t defaultMaxMemory();
 
 // The number of tasks on the machine, besides the calling thread, that want a processor right now;

@@ -161,6 +161,20 @@ TEST(DefaultMaxMemory, IsAtMost16Gigabytes) {
   EXPECT_LE(defaultMaxMemory(), 16'000'000'000u);
 }
 
+// Slurm gives its limits in megabytes (2^20 bytes), by the machine or by the processor.
+TEST(DefaultMaxMemory, IsAtMostWhatSlurmGives) {
+  setenv("SLURM_MEM_PER_NODE", "3", 1);
+  EXPECT_EQ(defaultMaxMemory(), 3u << 20);
+  unsetenv("SLURM_MEM_PER_NODE");
+
+  setenv("SLURM_MEM_PER_CPU", "2", 1);
+  setenv("SLURM_CPUS_ON_NODE", "4", 1);
+  EXPECT_EQ(defaultMaxMemory(), 8u << 20);
+  unsetenv("SLURM_MEM_PER_CPU");
+  EXPECT_GT(defaultMaxMemory(), 8u << 20) << "no limit was given";
+  unsetenv("SLURM_CPUS_ON_NODE");
+}
+
 using RunnableTasks = ControlGroups;
 
 TEST_F(RunnableTasks, AreReadFromTheLoadWithoutThisOne) {
