@@ -180,6 +180,23 @@ TEST(EditSettings, WarnAsTheReaderDoes) {
   }
 }
 
+TEST(EditSettings, WarnOfMaterialsThatSendOutMoreThanTheyGet) {
+  const cli::TemporaryFolder folder;
+  std::ofstream(folder / "s.json") << R"({"whit": 1, "materials": {"m": {"diffuse": 0.5}}, "scene":
+    [{"shape": "sphere", "material": "m"}]})";
+  Engine engine(openWith(folder / "s.json"));
+  const OpenScene* const before = engine.opened().get();
+  ASSERT_TRUE(before->warnings.entries().empty());
+
+  engine.edit("/materials/m/mirror=0.9");
+  EXPECT_EQ(engine.opened().get(), before) << "it was read again";
+  const auto warnings = before->warnings.entries();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings.begin()->first.starts_with("material whose parts exceed 1 in sum"));
+  EXPECT_EQ(warnings.begin()->second.first,
+            folder / "s.json#/materials/m: mirror 0.9 + diffuse 0.5 = 1.4");
+}
+
 TEST(EditSettings, OfItemsWithoutAMaterial) {
   const cli::TemporaryFolder folder;
   std::ofstream(folder / "s.json")

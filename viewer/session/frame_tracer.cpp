@@ -71,7 +71,7 @@ void FrameTracer::edit(const SceneEdit& edit) {
   for (const auto& [kind, entry] : engine_->opened()->warnings.entries()) {
     if (known.contains(kind)) continue;
     fresh.note(kind, entry.first, entry.count);
-    warning_ = kind + ": " + entry.first;
+    warning_ += (warning_.empty() ? "" : "; ") + kind + ": " + entry.first;
   }
   if (warns_) cli::printWarnings(fresh);
   edited_.reset();

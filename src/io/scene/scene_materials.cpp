@@ -70,9 +70,8 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
             formatName(is) + ")");
 }
 
-// Warns of a material that is given more light to send out than it gets. Thin coats over white are
-// common, so a tenth too much is let pass. Parts with a map, and a lobe that only lights show, may
-// send out less than they state and are left out.
+}  // namespace
+
 void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) {
   constexpr float kMost = 1.1f;
   const bool lobe = m.glossyReflection && m.specularMap == kNoTexture;
@@ -98,8 +97,6 @@ void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) 
       "transmission leave is all that its diffuse color gets",
       formatted("%s: %s = %.4g", where.c_str(), text.c_str(), double{sum[largest]}));
 }
-
-}  // namespace
 
 MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {
   for (const auto& [name, value] : file.find("textures").members()) {

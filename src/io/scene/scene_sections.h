@@ -99,6 +99,10 @@ using ReadMap =
     std::function<std::int32_t(const JsonValue& name, const Member<Material, std::int32_t>& map)>;
 // Reads the members of a material that are given; the others keep their values.
 void readMaterial(JsonObject& object, const ReadMap& readMap, Material& material);
+// Warns of a material that is given more light to send out than it gets. Thin coats over white are
+// common, so a tenth too much is let pass. Parts with a map, and a lobe that only lights show, may
+// send out less than they state and are left out.
+void warnOfSum(const Material& m, const std::string& where, Warnings& warnings);
 
 // The sections "textures" and "materials".
 class MaterialReader {

@@ -111,7 +111,7 @@ bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, Sc
 // Changes the material that the setting is about, as its reader would have. Returns false for other
 // settings, and for members that triangles or textures depend on.
 bool editMaterial(const SceneSetting& setting, const JsonDocument& document, const Scene& scene,
-                  std::vector<Material>& materials) {
+                  Warnings& warnings, std::vector<Material>& materials) {
   // The pointer to the material comes before the name of the member.
   std::string pointer;
   auto before = scene.materials.end();
@@ -139,7 +139,10 @@ bool editMaterial(const SceneSetting& setting, const JsonDocument& document, con
   if (isBaked) return false;
 
   // Only the readers of models leave maps out.
-  if (!isModelAlone(document) && pointer.starts_with("/materials/")) return true;
+  if (!isModelAlone(document) && pointer.starts_with("/materials/")) {
+    warnOfSum(material, object.value().where(), warnings);
+    return true;
+  }
   for (const auto& [name, map] : kReplacedMaps) {
     const bool isGiven = object.has(std::string(name) + "Map");
     if (object.has(name) && !isGiven) material.*map = kNoTexture;
@@ -229,7 +232,7 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
       surroundings = true;
     } else if ((section == "cameras" || section == "size") && !scene.isModel) {
       view = true;
-    } else if (editMaterial({tokens, value}, document, scene, materials)) {
+    } else if (editMaterial({tokens, value}, document, scene, warnings, materials)) {
       shading = true;
     } else {
       return false;
