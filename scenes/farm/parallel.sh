@@ -11,7 +11,7 @@
 # In the environment:
 #   WHIT     the program (default: build/whit of this checkout, else whit)
 #   JOBS     jobs at a time on each machine (default 1: one job already uses all cores)
-#   THREADS  workers of a job (default: cores / JOBS)
+#   THREADS  workers of a job (default: cores of its machine / JOBS)
 #   CHUNK    frames, or rows of a band, of a job (default 8 frames, 64 rows, and fewer where there
 #            would be less jobs than run at a time); each job loads the scene
 #   RETRIES  how often a job is tried (default 3)
@@ -38,10 +38,16 @@ here=$(cd "$(dirname "$0")/../.." && pwd)
 whit=${WHIT:-$here/build/whit}
 [ -x "$whit" ] || whit=whit
 jobs=${JOBS:-1}
-cores=$(nproc)
-threads=${THREADS:-$((cores > jobs ? cores / jobs : 1))}
-log=$(mktemp) said=$(mktemp)
-trap 'rm -f "$log" "$said"' EXIT
+# Each machine counts its own cores. $0 is the program.
+own='n=$(($(nproc) / '$jobs')); exec "$0" render --threads $((n > 1 ? n : 1)) "$@"'
+render=(sh -c "$own" "$whit")
+[ -z "${THREADS:-}" ] || render=("$whit" render --threads "$THREADS")
+
+# Files of this run lie where the next one sweeps: nothing is left of a run that was killed.
+begin() {
+  log=$(mktemp "$1/.whit-XXXXXX.tmp") said=$(mktemp "$1/.whit-XXXXXX.tmp")
+  trap 'rm -f "$log" "$said"' EXIT
+}
 
 # chunk MOST COUNT: of COUNT frames or rows, how many are a job: MOST, or what gives every job that
 # runs at a time one.
@@ -77,6 +83,7 @@ sweep() { rm -f "$1"/.whit-*.tmp; }
 
 case $what in
   frames)
+    begin "$(dirname "$out")"
     first=${range%%..*} last=${range##*..}
     images=$((10#$last - 10#$first + 1))
     step=$(chunk 8 "$images")
@@ -85,15 +92,20 @@ case $what in
       b=$((a + step - 1 < 10#$last ? a + step - 1 : 10#$last))
       items+=("$a..$b")
     done
-    job=("$whit" render "$scene" -o "$out" --frames '{}' --threads "$threads" --resume --quiet "$@")
+    job=("${render[@]}" "$scene" -o "$out" --frames '{}' --resume --quiet "$@")
     each "$images" "${items[@]}"
     sweep "$(dirname "$out")"
     ;;
   image)
+    case $out in
+      *.[eE][xX][rR]) ;;
+      *) echo "$0: $out: expected a name that ends in .exr, which bands are merged to" >&2; exit 2 ;;
+    esac
     width=${range%%x*} height=${range##*x}
     step=$(chunk 64 "$height")
     parts=$out.parts
     mkdir -p "$parts"
+    begin "$parts"
     items=()
     files=()
     for ((y = 0; y < height; y += step)); do
@@ -101,8 +113,7 @@ case $what in
       items+=("$item")
       files+=("$parts/$item.exr")
     done
-    job=("$whit" render "$scene" -o "$parts/{}.exr" --size "$range" --crop '{}'
-      --threads "$threads" --resume --quiet "$@")
+    job=("${render[@]}" "$scene" -o "$parts/{}.exr" --size "$range" --crop '{}' --resume --quiet "$@")
     each "${#items[@]}" "${items[@]}"
     "$whit" merge "$out" "${files[@]}" --quiet
     rm -rf "$parts"

@@ -82,6 +82,13 @@ WHIT=$whit JOBS=2 CHUNK=25 "$farm/parallel.sh" image whitted bands.exr 96x60
 cmp whole.exr bands.exr
 test ! -e bands.exr.parts
 
+# Bands are merged to an EXR: another name is refused before anything is traced.
+status=0
+WHIT=$whit "$farm/parallel.sh" image whitted bands.png 96x60 2>log || status=$?
+test $status = 2
+grep -q "expected a name that ends in .exr" log
+test ! -e bands.png.parts
+
 # Every job that runs at a time has something to do, where there is no CHUNK; and whoever says
 # --json is told that there is no one file.
 recorder=$work/bin
@@ -96,6 +103,24 @@ status=0
 WHIT=$whit "$farm/parallel.sh" frames whitted "eight/####.exr" 0..7 --json all.json 2>log || status=$?
 test $status = 2
 grep -q "every job would write" log
+
+# Threads are those of the machine that traces: it may have other cores than this one.
+printf '#!/bin/sh\necho 12\n' >"$recorder/nproc"
+printf '#!/bin/sh\necho "$@" >>"%s"\nexec "%s" "$@"\n' "$work/words" "$whit" >"$recorder/whit"
+chmod +x "$recorder/nproc"
+mkdir remote
+printf '#!/bin/sh\nwhile [ "$1" != there ]; do shift; done\nshift\n[ "$1" != -- ] || shift\nPATH=%s:$PATH exec sh -c "$*"\n' \
+  "$recorder" >"$work/login"
+chmod +x "$work/login"
+WHIT=$recorder/whit JOBS=4 LOGINS="$work/login there" "$farm/parallel.sh" frames whitted "$work/remote/####.exr" 0..1 \
+  --size 32x20 2>log || { cat log; exit 1; }
+grep -q -- "--threads 3 " words
+test "$(ls -A remote | wc -l)" = 2
+
+# A run that is killed leaves nothing that the next one does not sweep away.
+: >farmed/.whit-killed.tmp
+farm 2>/dev/null
+test "$(ls -A farmed | wc -l)" = 8
 
 # The job array, task by task as Slurm would start them; the last has nothing to do.
 for task in 0 1 2; do
