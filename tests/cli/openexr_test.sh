@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Channels as programs read them that are not ours: OpenEXR's exrheader and exrinfo, and OpenImageIO's
-# Python module: openexr_test.sh WHIT
+# Channels as programs read them that are not ours: OpenEXR's exrheader and exrinfo, and the Python
+# modules of OpenImageIO, OpenCV and imageio: openexr_test.sh WHIT
 set -euo pipefail
 
 whit=$1
@@ -86,4 +86,63 @@ END
 else
   echo "python3-openimageio is not installed: what it reads is NOT checked"
 fi
+
+# A channel alone is what programs without knowledge of channels read: one float, or three.
+for channel in depth normal object; do
+  "$whit" render "$work/scene.json" -o "$work/a.$channel.exr" --quiet
+done
+cat >"$work/alone.py" <<'END'
+import sys
+import numpy
+
+# BGR: the order of the colors is that of OpenCV.
+def check(read, bgr):
+    depth, normal, number = (read(f"{sys.argv[1]}/a.{name}.exr") for name in ("depth", "normal", "object"))
+    for gray in depth, number:
+        assert gray.dtype == numpy.float32, gray.dtype
+        gray.shape = (40, 64)
+    assert normal.shape == (40, 64, 3) and normal.dtype == numpy.float32, (normal.shape, normal.dtype)
+    assert abs(depth[20, 32] - 5) < 1e-5 and numpy.isinf(depth[0, 0]), (depth[20, 32], depth[0, 0])
+    facing = (1, 0, 0) if bgr else (0, 0, 1)
+    assert abs(normal[20, 32] - facing).max() < 1e-6, normal[20, 32]
+    assert not normal[0, 0].any(), normal[0, 0]
+    assert (number[20, 32], number[0, 0]) == (1, -1), (number[20, 32], number[0, 0])
+END
+cat >"$work/opencv.py" <<'END'
+from alone import check
+import cv2
+check(lambda file: cv2.imread(file, cv2.IMREAD_UNCHANGED), True)
+END
+cat >"$work/by_imageio.py" <<'END'
+import sys
+from alone import check
+try:
+    from imageio.v3 import imread
+except ImportError:  # of Debian 12
+    from imageio import imread
+try:
+    imread(f"{sys.argv[1]}/a.depth.exr")
+except (OSError, ValueError, RuntimeError) as none:  # it has no plugin of its own for EXRs
+    print(none)
+    sys.exit(77)
+check(imread, False)
+END
+export OPENCV_IO_ENABLE_OPENEXR=1  # without it OpenCV reads none
+
+# readBy MODULE PACKAGE SCRIPT
+readBy() {
+  local status=0
+  if ! $python -c "import $1, numpy" 2>/dev/null; then
+    echo "$2 is not installed: what it reads is NOT checked"
+    return
+  fi
+  $python "$work/$3" "$work" || status=$?
+  case $status in
+    0) passed=$((passed + 1)) ;;
+    77) echo "$2 has nothing that reads EXRs: what it reads is NOT checked" ;;
+    *) exit 1 ;;
+  esac
+}
+readBy cv2 python3-opencv opencv.py
+readBy imageio python3-imageio by_imageio.py
 echo "channels read by others: $passed passed"
