@@ -112,6 +112,7 @@ void Image::write(const std::string& path) const {
       writePng(path, film.display, data_->metadata);
     } else if (extension == ".jpg" || extension == ".jpeg") {
       requireNoChannelName(path);
+      refuseIf(film.display.hasAlpha, "'" + path + "': a JPEG has no alpha: write a PNG or an EXR");
       writeTextFile(path, encodeJpeg(film.display));
     } else {
       throwUsage("'" + path + "': expected a name that ends in .exr, .png or .jpg");

@@ -283,7 +283,8 @@ struct Numbers {
 };
 
 // Rays that ask what they hit. Origins and directions are x, y, z of each ray, in the world; a
-// direction may have any length but zero, and distances count in lengths of it.
+// direction has a length from 1e-100 to 1e100, in which distances count. Rays of other directions
+// hit nothing and are not certain.
 struct Rays {
   Numbers origins, directions;
   // Hits count from `near` to `far`, both included: a number for each ray or one for all; empty: 0

@@ -228,6 +228,26 @@ class Pictures(unittest.TestCase):
         self.assertEqual((crop.left, crop.top, crop.width, crop.height), (8, 4, 12, 12))
         assert_array_equal(crop.rgb, whole.rgb[4:16, 8:20])
 
+    def test_pictures_are_mappings_of_channels(self):
+        picture = whit.Scene("whitted").render(size=SIZE, channels=["depth", "object"])
+        self.assertEqual((list(picture), len(picture)), (["depth", "object"], 2))
+        self.assertEqual(set(dict(picture)), set(picture.keys()))
+        for name in ("depth", "depth.Z", "object.id"):
+            self.assertIn(name, picture)
+        for name in ("normal", "depth.X", "normal.X", "", 0, None):
+            self.assertNotIn(name, picture)
+        without = whit.Scene("whitted").render(size=SIZE)
+        self.assertEqual(list(without), [])
+        self.assertTrue(without)
+
+    def test_transparent_pictures_are_no_jpegs(self):
+        picture = whit.Scene("whitted").render(size=SIZE, background="transparent")
+        with temporary_folder():
+            picture.write("a.png")
+            with self.assertRaisesRegex(ValueError, "a.jpg': a JPEG has no alpha: write a PNG"):
+                picture.write("a.jpg")
+            self.assertFalse(os.path.exists("a.jpg"))
+
     def test_channels(self):
         """Of a square in the plane y = 0, seen from 3 above by parallel rays, 2 high."""
         camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}

@@ -16,7 +16,7 @@ import operator
 import os
 import warnings
 import weakref
-from typing import Any, Callable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, KeysView, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -112,6 +112,24 @@ class Picture:
             one = values[:, :, components.index(component)]
             self._components[name] = np.ascontiguousarray(one)
         return self._components[name]
+
+    def __contains__(self, name: object) -> bool:
+        try:
+            return self[str(name)] is not None
+        except KeyError:
+            return False
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def __len__(self) -> int:
+        return len(self.keys())
+
+    def __bool__(self) -> bool:
+        return True
+
+    def keys(self) -> KeysView[str]:
+        return self._object.channels.keys()
 
     width: int = _native("width", "Width in pixels, of a crop its own width.")
     height: int = _native("height", "Height in pixels, of a crop its own height.")
@@ -390,7 +408,7 @@ class Scene:
         """The nearest hit of each ray with the scene as it is at its present time.
 
         origins, directions: (..., 3), float32 or float64, in the world; shapes are broadcast, and
-            (3,) is one ray. A direction may have any length but zero.
+            (3,) is one ray. A direction has a length from 1e-100 to 1e100.
         t_near, t_far: hits count from t_near to t_far, both included, in lengths of the direction;
             a number, or one for each ray.
 
