@@ -116,6 +116,7 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
     if (!known.contains(kind)) opened_->warnings.note(kind, entry.first, entry.count);
   }
 
+  const LoadOptions loaded = opened_->load;
   document_ = std::move(document);
   opened_->load.settings = load.settings;
   opened_->load.sky = load.sky;
@@ -133,7 +134,8 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
     if (touches("cameras") || media != scene().mediumOfMaterial) renderer_->camerasChanged();
     renderer_->shadingChanged();
   } catch (...) {
-    renderer_.reset();  // prepare() makes another one for the present scene
+    renderer_.reset();
+    readAgain(opened_->source, loaded, progress);  // the scene as it was
     throw;
   }
 }

@@ -3,6 +3,29 @@
 #include "io/scene/scene_settings.h"
 #include "library_scenes.h"
 
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+// So many more allocations succeed, and then one fails.
+constexpr int kManyAllocations = 1 << 30;
+std::atomic<int> allocationsLeft = kManyAllocations;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  void* const memory = --allocationsLeft == 0 ? nullptr : std::malloc(size > 0 ? size : 1);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return std::malloc(size > 0 ? size : 1);
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
 namespace whit::api {
 namespace {
 
@@ -83,6 +106,29 @@ TEST(SetMember, HasThePictureOfASceneThatWasReadSo) {
 
     const bool isUsed = std::string(member.pointer) != "/materials/new";
     EXPECT_NE(samePictures(before, after), isUsed);
+  }
+}
+
+// The renderer's tables are made anew last. Where that fails, the edit is undone.
+TEST(SetMember, LeavesTheSceneAsItWasWhereMemoryEnds) {
+  Renderer renderer = smallRenderer(loadScene("whitted"));
+  const Image before = renderer.render();
+  const auto edit = [&] { renderer.setMember("/materials/floor/mirror", "0.5"); };
+
+  // The allocations of an edit are counted in one that is not refused.
+  Renderer other = smallRenderer(loadScene("whitted"));
+  other.render();
+  allocationsLeft = kManyAllocations;
+  other.setMember("/materials/floor/mirror", "0.5");
+  const int count = kManyAllocations - allocationsLeft;
+
+  constexpr int kOfTables = 12;  // at least so many are made for the renderer
+  for (int last = 1; last <= kOfTables; ++last) {
+    allocationsLeft = count - last;
+    const Error error = errorOf(edit);
+    allocationsLeft = kManyAllocations;
+    ASSERT_EQ(error.status(), 5) << last;
+    EXPECT_TRUE(samePictures(renderer.render(), before)) << last;
   }
 }
 
