@@ -305,6 +305,28 @@ TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
   EXPECT_EQ(reflected.image, Rgb(0.25f)) << "through the sheet, and back through it";
 }
 
+// The samples of a rough sheet's lobe have turned aside: what lets them through farther back shows
+// no background. The rest of the sheet lets light go straight on.
+TEST_P(Channels, AlphaBehindSeveralSamplesOfALobe) {
+  Material half;
+  half.coverage = 0.5f;
+
+  for (const auto& [coverage, alpha] : {std::pair{1.0f, 1.0f}, {0.5f, 0.75f}}) {
+    Material rough;
+    rough.transmission = Rgb(0.8f);
+    rough.thin = rough.frosted = true;
+    rough.roughness = 0.4f;
+    rough.coverage = coverage;
+
+    for (const int samples : {1, 8}) {
+      RenderOptions o = options("alpha");
+      o.glossy = samples;
+      EXPECT_NEAR(middleOf(sheetBeforeSky(rough, &half), o).alpha, alpha, 1e-6f) << samples;
+      EXPECT_NEAR(middleOf(sheetBeforeSky(half, &rough), o).alpha, (1 + coverage) / 2, 1e-6f);
+    }
+  }
+}
+
 // Neither the sky that the lobe reflects, nor a mirror, nor the view changes the albedo.
 TEST_P(Channels, AlbedoIsTheMaterialsOwn) {
   SceneDescription d = squareScene();

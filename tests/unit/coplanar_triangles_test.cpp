@@ -456,6 +456,40 @@ TEST(CoplanarTriangles, TurnedAndShearedInstancesAreAsDefined) {
   EXPECT_GT(coplanar, 500u);
 }
 
+// Returns a triangle that is 2 to 4 long and as thin as is told, in any direction of a floor; its
+// tip lies anywhere along it.
+Mesh needle(std::mt19937& random, double width) {
+  const auto below = [&](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
+  const double angle = below(2 * kPi);
+  const Vec3d along{std::cos(angle), std::sin(angle), 0}, across{-along.y, along.x, 0};
+  const Vec3d tip = along * below(2) + across * width;
+  Mesh mesh = rectangle({below(3), below(3), 0}, along * (2 + below(2)), tip);
+  mesh.triangles.pop_back();
+  return mesh;
+}
+
+TEST(CoplanarTriangles, RotatedAndShearedNeedlesAreAsDefined) {
+  Affine sheared;
+  sheared.y.x = 3;
+
+  std::mt19937 random(19);
+  std::size_t coplanar = 0;
+  for (const double width : {0.1, 1e-2, 1e-3, 1e-4}) {
+    std::vector<Mesh> world{tile(1, 1, 1, 1)}, object;
+    for (int i = 0; i < 40; ++i) world.push_back(needle(random, width));
+    for (int i = 0; i < 10; ++i) object.push_back(needle(random, width));
+
+    Builder builder;
+    builder.add(world);
+    builder.add(object, {Affine{}, Affine::rotation({0, 0, 1}, 31), sheared,
+                         Affine::rotation({0, 0, 1}, 107) * sheared});
+    coplanar += expectAsDefined(builder.scene());
+    builder.move(farAndTurned());
+    coplanar += expectAsDefined(builder.scene());
+  }
+  EXPECT_GT(coplanar, 300u);
+}
+
 TEST(CoplanarTriangles, ManyTilesInOnePlane) {
   constexpr int kTiles = 200;
   Mesh floor;
