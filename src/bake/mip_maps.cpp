@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "bake/texel_weights.h"
@@ -37,7 +37,9 @@ double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
 std::uint32_t codeOf(TexelFormat format, double value, int channel) {
   constexpr double kBeyondErrors = 1 << 20;
   const double code = format == TexelFormat::data ? value : std::sqrt(value);
-  const double nearest = std::nearbyint(std::nearbyint(code * kBeyondErrors) / kBeyondErrors);
+  // Adding and subtracting 2^52 is std::nearbyint(), without a call.
+  const auto rounded = [](double x) { return (x + 0x1p52) - 0x1p52; };
+  const double nearest = rounded(rounded(code * kBeyondErrors) / kBeyondErrors);
   return static_cast<std::uint32_t>(nearest) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
@@ -135,24 +137,31 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights, int thread
   return half;
 }
 
-// The weights of the map's texels at full size; none where no mask weights them.
-std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, const ShownMap& map) {
+// The weights of the map's texels at its full size and at each smaller one; empty where no mask
+// weights them.
+std::vector<TexelWeights> weightsOf(const std::vector<Texture>& textures, const ShownMap& map) {
   const auto texture = [&](std::int32_t number) -> const Texture& { return textures[number]; };
   const Texture& own = texture(map.texture);
-  std::optional<TexelWeights> weights;
+  std::vector<TexelWeights> levels;
   // An alpha map cuts rays away: a texel counts by the share of its area that is left.
   if (map.alphaMap != kNoTexture) {
-    weights = resized(uncutShares(texture(map.alphaMap), map.alphaCutoff), own.width, own.height);
+    const TexelWeights uncut = uncutShares(texture(map.alphaMap), map.alphaCutoff);
+    levels.push_back(resized(uncut, own.width, own.height));
   }
-  if (map.coverageMap == kNoTexture) return weights;
 
-  TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
-  if (weights) {
-    for (const auto i : indices(coverage.values)) {
-      coverage.values[i] *= weights->values[i];
+  if (map.coverageMap != kNoTexture) {
+    TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
+    for (std::size_t i = 0; !levels.empty() && i < coverage.values.size(); ++i) {
+      coverage.values[i] *= levels[0].values[i];
     }
+    levels = {std::move(coverage)};
   }
-  return coverage;
+
+  while (!levels.empty() && (levels.back().width > 1 || levels.back().height > 1)) {
+    const TexelWeights& last = levels.back();
+    levels.push_back(resized(last, std::max(1, last.width / 2), std::max(1, last.height / 2)));
+  }
+  return levels;
 }
 
 // Gives texels that nobody sees the color of the level above, because bilinear lookups mix them
@@ -168,27 +177,21 @@ void fillUnseen(const TexelWeights& weights, const Texture& above, Texture& leve
   }
 }
 
-std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map,
+// `weights` are those of weightsOf().
+std::vector<Texture> smallerLevels(const Texture& full, const std::vector<TexelWeights>& weights,
                                    int threads) {
-  const Texture* last = &textures[map.texture];
+  const Texture* last = &full;
   std::vector<Texture> levels;
   levels.reserve(kMipLevels);
-
-  std::optional<TexelWeights> weights = weightsOf(textures, map);
-  std::vector<TexelWeights> weightsOfLevels;
   while (last->width > 1 || last->height > 1) {
-    levels.push_back(halvedBy(*last, weights ? &*weights : nullptr, threads));
+    levels.push_back(halvedBy(*last, weights.empty() ? nullptr : &weights[levels.size()], threads));
     last = &levels.back();
-    if (!weights) continue;
-
-    weights = resized(*weights, last->width, last->height);
-    weightsOfLevels.push_back(*weights);
   }
 
   // Filling starts at the smallest level, so that colors reach every unseen texel of the larger
   // ones.
-  for (std::size_t i = weightsOfLevels.size(); i-- > 1;) {
-    fillUnseen(weightsOfLevels[i - 1], levels[i], levels[i - 1]);
+  for (std::size_t i = levels.size(); !weights.empty() && i-- > 1;) {
+    fillUnseen(weights[i], levels[i], levels[i - 1]);
   }
   return levels;
 }
@@ -229,13 +232,26 @@ MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMa
     if (map.texture != kNoTexture) smaller_.try_emplace(map);
   }
 
-  // The map has all of its entries before threads fill them.
-  std::vector<std::pair<const ShownMap, std::vector<Texture>>*> made;
-  for (auto& entry : smaller_) made.push_back(&entry);
-  // Threads beyond the number of maps help with their levels.
-  const int each = std::max(1, threads / std::max(1, static_cast<int>(made.size())));
-  parallelFor(threads, made.size(), [&](std::size_t i, int) {
-    made[i]->second = smallerLevels(textures, made[i]->first, each);
+  // Maps of one size that the same masks weight are made by one task, with the same weights. These
+  // tasks take longest and come first.
+  using Entry = std::pair<const ShownMap, std::vector<Texture>>;
+  std::map<std::tuple<ShownMap, int, int>, std::vector<Entry*>> groups;
+  for (Entry& entry : smaller_) {
+    ShownMap masks = entry.first;
+    const Texture& full = textures[masks.texture];
+    if (masks.alphaMap != kNoTexture || masks.coverageMap != kNoTexture) masks.texture = kNoTexture;
+    groups[{masks, full.width, full.height}].push_back(&entry);
+  }
+  std::vector<const std::vector<Entry*>*> tasks;
+  for (const auto& [masks, entries] : groups) tasks.push_back(&entries);
+
+  // Threads beyond the number of tasks help with their levels.
+  const int each = std::max(1, threads / std::max(1, static_cast<int>(tasks.size())));
+  parallelFor(threads, tasks.size(), [&](std::size_t i, int) {
+    const std::vector<TexelWeights> weights = weightsOf(textures, tasks[i]->front()->first);
+    for (Entry* const entry : *tasks[i]) {
+      entry->second = smallerLevels(textures[entry->first.texture], weights, each);
+    }
   });
 }
 
