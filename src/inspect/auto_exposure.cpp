@@ -50,6 +50,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   reference::Settings settings;
   settings.options.depth = kDepth;
   settings.options.disable = renderer.options().disable;
+  settings.threads = renderer.machine().threads;
   settings.effects = makePlan(scene, settings.options).effects;
 
   const EmbreeIntersector intersector(renderer.accel());
@@ -59,7 +60,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
 
   // Rows are joined in order, so that the result does not depend on the threads.
   std::vector<Luminances> rows(height);
-  parallelFor(renderer.machine().threads, rows.size(), [&](std::size_t row, int) {
+  parallelFor(settings.threads, rows.size(), [&](std::size_t row, int) {
     reference::RayCounts counts;
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
