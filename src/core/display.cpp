@@ -126,11 +126,11 @@ DisplayImage overBackground(const Image& image, std::span<const float> alpha,
 
     // Mixing is done in linear light. A transparent picture keeps the codes of its surfaces,
     // because PNG stores colors that are not premultiplied.
+    const bool mixes = !display.hasAlpha && covered < 1;
     for (const auto c : indices(3)) {
       const double behind{linearOfCode(background.color[c])};
       const double mixed = behind + (double{linearOfCode(codes[c])} - behind) * covered;
-      display.rgba.push_back(display.hasAlpha ? codes[c]
-                                              : static_cast<std::uint8_t>(srgbCode(mixed)));
+      display.rgba.push_back(mixes ? static_cast<std::uint8_t>(srgbCode(mixed)) : codes[c]);
     }
 
     const double opacity = display.hasAlpha ? covered : 1;
