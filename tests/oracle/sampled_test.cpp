@@ -6,7 +6,11 @@
 namespace oracle {
 namespace {
 
-class Sampled : public Agreement {};
+// Each scene shows thousands of samples, and Mixed.* draws the same effects.
+class Sampled : public Agreement {
+ protected:
+  Sampled() { usualScenes_ = 5; }
+};
 
 Mesh flatSolid(SceneMaker& maker) { return maker.random.chance(0.5) ? box() : tetrahedron(); }
 

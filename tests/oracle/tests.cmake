@@ -4,5 +4,9 @@ add_library(whit_oracle STATIC oracle/faces.cpp oracle/geometry.cpp oracle/integ
                                oracle/random_parts.cpp oracle/shapes.cpp oracle/tracer.cpp
                                oracle/write_scene.cpp)
 target_compile_options(whit_oracle PRIVATE $<TARGET_PROPERTY:whit_flags,INTERFACE_COMPILE_OPTIONS>)
+# Sanitizers watch whit. The oracle, which is slow, would take most of their time.
+if(WHIT_SANITIZE)
+  target_compile_options(whit_oracle PRIVATE -fno-sanitize=all)
+endif()
 target_include_directories(whit_oracle PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 whit_tests(oracle whit_oracle whit_library whit_flags)
