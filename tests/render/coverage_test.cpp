@@ -121,6 +121,7 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
     builder.place(std::move(lamp), {Affine(), Affine::translation({1, 1, 0})});
     builder.description.cameras = {{.eye = {0.1f, 0.2f, 3}, .at = {0, 0, 0}}};
     RenderOptions o = smallOptions();
+    o.size = kSmallSize;
     o.depth = 2;
     return render(builder.build(), o).image;
   };

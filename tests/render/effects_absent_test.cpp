@@ -9,7 +9,8 @@ namespace {
 
 Scene loadWithout(EffectSet effects) {
   Warnings warnings;
-  SceneDescription description = loadScene("effects", LoadOptions{}, warnings);
+  static const SceneDescription kAll = loadScene("effects", LoadOptions{}, warnings);
+  SceneDescription description = kAll;
   description.fog = {Rgb(0.05f), Rgb(0.5f)};
   leaveOut(description, effects);
   return Scene::finalize(std::move(description), warnings);
@@ -61,7 +62,8 @@ class AbsentEffect : public testing::TestWithParam<int> {
 };
 
 TEST_P(AbsentEffect, IsWhatTheSceneNoLongerCallsFor) {
-  EXPECT_EQ(loadWithout(EffectSet()).effects, EffectSet::all());
+  static const EffectSet kOfAll = loadWithout(EffectSet()).effects;
+  EXPECT_EQ(kOfAll, EffectSet::all());
   EXPECT_EQ(loadWithout(withDependents(effect())).effects,
             EffectSet::all().without(withDependents(effect())));
 }

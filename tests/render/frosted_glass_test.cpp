@@ -76,6 +76,7 @@ Scene frostedThings() {
 
 RenderOptions withSampledLobes() {
   RenderOptions o = smallOptions();
+  o.size = kSmallSize;
   o.glossy = 3;
   return o;
 }

@@ -39,6 +39,7 @@ TEST_P(Glossy, BitsDependOnTheSceneAlone) { expectBitsWhateverTheQueues(scene_, 
 
 TEST_P(Glossy, ACropShowsTheSameNoise) {
   RenderOptions o = options();
+  o.size = kSmallSize;
   const Image whole = render(scene_, o).image;
   o.crop = Crop{40, 30, 60, 41};
   const Image part = render(scene_, o).image;

@@ -64,8 +64,8 @@ TEST_P(Invariance, H59_anyPacketWidthGivesTheSameBits) {
 }
 
 TEST_P(Invariance, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
-  for (const Crop crop : {Crop{13, 7, 14, 8}, Crop{0, 0, 17, 3}, Crop{90, 1, 91, 67}}) {
-    RenderOptions o = smallOptions();
+  RenderOptions o = smallOptions();
+  for (const Crop crop : {Crop{13, 7, 14, 8}, Crop{0, 0, 17, 3}, Crop{40, 1, 41, o.size->height}}) {
     o.crop = crop;
     const Image part = render(scene_, o).image;
     for (int y = crop.y0; y < crop.y1; ++y) {

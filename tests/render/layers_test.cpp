@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "facets.h"
 #include "io/gltf/material.h"
 #include "pi.h"
 #include "reference/sample_mean.h"
@@ -16,29 +17,6 @@
 
 namespace whit::test {
 namespace {
-
-// The share of even light that the lobe sends to the viewer, by the midpoint rule over the facets'
-// distribution: Walter et al. 2007 for the facets, Heitz 2014 for the masking, Schlick 1994 with
-// the reflectances f0 and f90.
-double albedoByFacets(double f0, double f90, double roughness, double nv) {
-  constexpr int kSteps = 300;
-  const double a2 = std::pow(roughness, 4), sine = std::sqrt(1 - nv * nv);
-  const auto lambda = [&](double c) { return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2; };
-
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double u = (i + 0.5) / kSteps, nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
-    for (int k = 0; k < kSteps; ++k) {
-      const double across = std::sqrt(1 - nh * nh) * std::cos(kPi * (k + 0.5) / kSteps);
-      const double vh = sine * across + nv * nh, nl = 2 * vh * nh - nv;
-      if (!(vh > 0 && nl > 0)) continue;
-
-      const double fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
-      sum += fresnel * vh / (nv * nh) / (1 + lambda(nl) + lambda(nv));
-    }
-  }
-  return sum / (kSteps * kSteps);
-}
 
 // The greatest error of the table that whit looks albedos up in, away from grazing views, as
 // scenes/README.md states it.
@@ -62,23 +40,46 @@ double meanOf(const Scene& scene, const RenderOptions& o, bool packets) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-// A wide floor, seen in parallel at an angle of this cosine.
+// A view of the floor, in parallel at an angle of this cosine.
+Camera viewAt(double cosine) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  Camera camera;
+  camera.eye = Vec3f(Vec3d(0, cosine, sine) * 10);
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0.6f, -0.8f};
+  camera.orthographicHeight = 0.01f;
+  return camera;
+}
+
+// A wide floor.
 SceneBuilder floorOf(const Material& material, double cosine) {
   SceneBuilder builder;
   builder.add(floorAt(0, 100, builder.add(material)));
-
-  const double sine = std::sqrt(1 - cosine * cosine);
-  Camera& camera = builder.lookFrom(Vec3f(Vec3d(0, cosine, sine) * 10));
-  camera.up = {0, 0.6f, -0.8f};
-  camera.orthographicHeight = 0.01f;
+  builder.description.cameras = {viewAt(cosine)};
   return builder;
 }
 
-double underEvenSky(const Material& material, double cosine, const RenderOptions& o, bool packets) {
-  SceneBuilder builder = floorOf(material, cosine);
-  builder.sky(1);
-  return meanOf(builder.build(), o, packets);
-}
+// The floor under an even sky: one for all views, because blurring the sky takes far longer than a
+// picture.
+class UnderEvenSky {
+ public:
+  // Ambient light stands in place of the sky for the diffuse color.
+  explicit UnderEvenSky(const Material& material, float ambient = 0)
+      : scene_([&] {
+          SceneBuilder builder = floorOf(material, 1);
+          builder.sky(1);
+          builder.description.ambient.up = builder.description.ambient.down = Rgb(ambient);
+          return builder.build();
+        }()) {}
+
+  double mean(double cosine, bool packets, const RenderOptions& o = plain()) {
+    scene_.cameras = {viewAt(cosine)};
+    return meanOf(scene_, o, packets);
+  }
+
+ private:
+  Scene scene_;
+};
 
 Material plastic(float diffuse, float f0, float roughness) {
   Material m = diffuseMaterial(diffuse);
@@ -96,31 +97,24 @@ Material gltf(float roughness, float clearcoat = 0) {
   return shadedAs(m, {});
 }
 
-// As above, with ambient light in place of an even sky for the diffuse color.
-double inEvenLight(const Material& material, double cosine, bool packets) {
-  SceneBuilder builder = floorOf(material, cosine);
-  builder.sky(1);
-  builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
-  return meanOf(builder.build(), plain(), packets);
-}
-
 // glTF: mix(base, layer, F).
 TEST(Layers, OfSmoothPlasticMixByFresnel) {
   constexpr std::array<double, 4> kExpected{0.520, 0.525, 0.576, 0.677};
+  UnderEvenSky floor(gltf(0), 1);
   for (const bool packets : {false, true}) {
     for (std::size_t i = 0; i < kCosines.size(); ++i) {
-      EXPECT_NEAR(inEvenLight(gltf(0), kCosines[i], packets), kExpected[i], 1e-3) << packets << i;
+      EXPECT_NEAR(floor.mean(kCosines[i], packets), kExpected[i], 1e-3) << packets << i;
     }
   }
 }
 
 TEST(Layers, OfPlasticMixByAlbedoAtAnyRoughness) {
-  for (const bool packets : {false, true}) {
-    for (const float roughness : {0.02f, 0.1f, 0.24f, 0.25f, 0.26f, 0.29f, 0.31f, 0.6f, 1.0f}) {
-      for (const double cosine : kCosines) {
-        const double albedo = albedoByFacets(0.04, 1, std::max(roughness, kMinRoughness), cosine);
-        EXPECT_NEAR(inEvenLight(gltf(roughness), cosine, packets), albedo + (1 - albedo) * 0.5,
-                    kTableError)
+  for (const float roughness : {0.02f, 0.1f, 0.24f, 0.25f, 0.26f, 0.29f, 0.31f, 0.6f, 1.0f}) {
+    UnderEvenSky floor(gltf(roughness), 1);
+    for (const double cosine : kCosines) {
+      const double albedo = albedoByFacets(0.04, 1, std::max(roughness, kMinRoughness), cosine);
+      for (const bool packets : {false, true}) {
+        EXPECT_NEAR(floor.mean(cosine, packets), albedo + (1 - albedo) * 0.5, kTableError)
             << packets << ' ' << roughness << ' ' << cosine;
       }
     }
@@ -128,13 +122,13 @@ TEST(Layers, OfPlasticMixByAlbedoAtAnyRoughness) {
 }
 
 TEST(Layers, BelowAClearcoatGetWhatItLeaves) {
+  UnderEvenSky floor(gltf(0.5f, 1), 1);
   for (const bool packets : {false, true}) {
     for (const double cosine : kCosines) {
       const double coat = 0.04 + 0.96 * std::pow(1 - cosine, 5);
       const double albedo = albedoByFacets(0.04, 1, 0.5, cosine);
       const double base = albedo + (1 - albedo) * 0.5;
-      EXPECT_NEAR(inEvenLight(gltf(0.5f, 1), cosine, packets), coat + (1 - coat) * base,
-                  kTableError)
+      EXPECT_NEAR(floor.mean(cosine, packets), coat + (1 - coat) * base, kTableError)
           << packets << ' ' << cosine;
     }
   }
@@ -167,13 +161,13 @@ TEST(Layers, GrazingReflectanceOfGltfIsThatOfItsSpecularFactor) {
   sampled.glossy = 64;
   for (const auto& [ior, strength] : {std::array{1.2f, 1.0f}, {1.33f, 0.5f}, {2.0f, 0.5f}}) {
     const double f0 = std::pow((ior - 1.0) / (ior + 1.0), 2) * double{strength};
+    const Material m = bare(0.3f, ior, strength);
+    UnderEvenSky floor(m);
     for (const bool packets : {false, true}) {
       for (const double cosine : {0.6, 0.35, 0.2}) {
         const double albedo = albedoByFacets(f0, double{strength}, 0.3, cosine);
-        const Material m = bare(0.3f, ior, strength);
-        EXPECT_NEAR(underEvenSky(m, cosine, plain(), packets), albedo, kTableError)
-            << ior << packets << cosine;
-        EXPECT_NEAR(underEvenSky(m, cosine, sampled, packets), albedo, kTableError)
+        EXPECT_NEAR(floor.mean(cosine, packets), albedo, kTableError) << ior << packets << cosine;
+        EXPECT_NEAR(floor.mean(cosine, packets, sampled), albedo, kTableError)
             << ior << packets << cosine;
 
         // The highlights of two surfaces differ by Schlick's term alone.
@@ -208,9 +202,9 @@ TEST(Layers, OfSceneFilesAddMirrorAndColor) {
   Material m = diffuseMaterial(0.5f);
   m.mirror = m.mirrorGrazing = Rgb(0.25f);
   for (const bool packets : {false, true}) {
-    EXPECT_NEAR(inEvenLight(m, 0.6, packets), 0.75, 1e-6);
+    EXPECT_NEAR(UnderEvenSky(m, 1).mean(0.6, packets), 0.75, 1e-6);
     m.diffuse = Rgb(0.875f);
-    EXPECT_NEAR(inEvenLight(m, 0.6, packets), 1, 1e-6);
+    EXPECT_NEAR(UnderEvenSky(m, 1).mean(0.6, packets), 1, 1e-6);
     m.diffuse = Rgb(0.5f);
   }
 }
@@ -219,16 +213,13 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
   double squares = 0;
   int count = 0;
   for (const float roughness : {0.05f, 0.2f, 0.3f, 0.5f, 0.7f, 1.0f}) {
-    for (const double cosine : {0.1, 0.3, 0.6, 1.0}) {
-      for (const float f0 : {0.02f, 0.04f, 0.5f, 1.0f}) {
+    for (const float f0 : {0.02f, 0.04f, 0.5f, 1.0f}) {
+      UnderEvenSky floor(plastic(0, f0, roughness));
+      for (const double cosine : {0.1, 0.3, 0.6, 1.0}) {
         const double f90 = std::min(1.0, 25.0 * f0);
         const double albedo = albedoByFacets(f0, f90, roughness, cosine);
-        SceneBuilder builder = floorOf(plastic(0, f0, roughness), cosine);
-        builder.sky(1);
-        const Scene scene = builder.build();
-
         for (const bool packets : {false, true}) {
-          const double seen = meanOf(scene, plain(), packets);
+          const double seen = floor.mean(cosine, packets);
           EXPECT_NEAR(seen, albedo, kTableError) << packets << roughness << ' ' << cosine << f0;
 
           squares += (seen - albedo) * (seen - albedo);
@@ -240,7 +231,7 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
 
   // The root mean square that scenes/README.md states.
   EXPECT_LT(std::sqrt(squares / count), 0.001);
-  EXPECT_NEAR(underEvenSky(plastic(0, 0.04f, 0.3f), 0.3, plain(), true), 0.168, 0.001);
+  EXPECT_NEAR(UnderEvenSky(plastic(0, 0.04f, 0.3f)).mean(0.3, true), 0.168, 0.001);
 }
 
 // Behind the first surface, here a clear sheet, --indirect follows one of lobe and diffuse color,

@@ -49,7 +49,9 @@ Scene floorUnder(const std::vector<Light>& lights) {
 TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
   constexpr double kInner = 15 * kPi / 180, kOuter = 25 * kPi / 180;
   const Scene scene = floorUnder({spot(15, 25)});
-  const Picture picture = render(scene, smallOptions());
+  RenderOptions o = smallOptions();
+  o.size = kSmallSize;
+  const Picture picture = render(scene, o);
   const Image& image = picture.image;
   const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
 

@@ -68,12 +68,19 @@ Scene whittedFrom(const Camera& camera) {
   return scene;
 }
 
+// The rays of the eye alone depend on the projection.
+RenderOptions projectedOptions() {
+  RenderOptions o = smallOptions();
+  o.size = kSmallSize;
+  o.spp = 2;
+  o.depth = 1;
+  return o;
+}
+
 TEST(Projected, StagesAgreeWithTheReferenceOnEveryTarget) {
   for (const auto& [name, camera] : projectedCameras(load("whitted").cameras.front())) {
     SCOPED_TRACE(name);
-    RenderOptions o = smallOptions();
-    o.spp = 2;
-    expectStagesAgreeOnEveryTarget(whittedFrom(camera), o);
+    expectStagesAgreeOnEveryTarget(whittedFrom(camera), projectedOptions());
   }
 }
 
@@ -81,8 +88,7 @@ TEST(Projected, EveryWayOfRenderingGivesTheSameBits) {
   for (const auto& [name, camera] : projectedCameras(load("whitted").cameras.front())) {
     SCOPED_TRACE(name);
     const Scene scene = whittedFrom(camera);
-    RenderOptions usual = smallOptions();
-    usual.spp = 3;
+    const RenderOptions usual = projectedOptions();
     const Image expected = render(scene, usual).image;
     const auto expectSame = [&](const RenderOptions& o, const std::string& what) {
       EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
@@ -185,6 +191,7 @@ TEST(Projected, DepthsOfASphereAndAPlaneAreTheClosedForm) {
     SCOPED_TRACE(name);
     const Scene scene = ballAndWall(camera);
     RenderOptions o = smallOptions();
+    o.size = kSmallSize;
     o.channels = parseChannels("depth,alpha");
     Renderer renderer(scene, o);
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);

@@ -315,7 +315,7 @@ class CoincidentSpheres : public testing::Test {
       }
 
       EXPECT_EQ(wrong, 0) << mode;
-      EXPECT_GT(seen, 500) << mode;
+      EXPECT_GT(seen, 400) << mode;
     }
   }
 

@@ -181,9 +181,11 @@ TEST(Trilinear, IsCloserToManySamples) {
   const Scene scene = builder.build();
 
   RenderOptions many = bilinear();
+  many.size = kSmallSize;
   many.spp = 256;
   const Image wanted = render(scene, many).image;
   const auto error = [&](RenderOptions o, int spp) {
+    o.size = kSmallSize;
     o.spp = spp;
     return compareImages(render(scene, o).image, wanted).rmse;
   };
