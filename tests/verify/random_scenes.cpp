@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "inspect/reference_frame.h"
+#include "sanitized.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {
@@ -212,7 +213,8 @@ std::optional<Scene> finalized(std::uint64_t seed) {
 
 // Renders in both modes. The pictures need not agree, because rays hit many borders.
 Finding randomScenes(const Setup& setup) {
-  constexpr std::uint64_t kScenes = 250;
+  // Sanitizers also watch RandomPictures.*, which are as hostile.
+  constexpr std::uint64_t kScenes = kSanitized ? 100 : 250;
   Finding finding(0);
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const std::optional<Scene> scene = finalized(seed);
