@@ -10,6 +10,7 @@
 #include "command_line/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "has_text.h"
 #include "output/digest.h"
 
 namespace whit::accuracy {
@@ -143,7 +144,7 @@ TEST(Knobs, UnknownNamesNameTheNearest) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::usage);
-    EXPECT_NE(std::string(error.what()).find("did you mean 'depth'?"), std::string::npos);
+    EXPECT_TRUE(hasText(std::string(error.what()), "did you mean 'depth'?"));
   }
 }
 

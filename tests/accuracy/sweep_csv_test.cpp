@@ -7,6 +7,7 @@
 #include "accuracy/report.h"
 #include "accuracy/sweep_rows.h"
 #include "core/error.h"
+#include "has_text.h"
 #include "output/report_page.h"
 
 namespace whit::accuracy {
@@ -58,7 +59,7 @@ TEST(SweepCsv, WhatIsWrittenIsRead) {
   EXPECT_EQ(rows[0].at("cpu"), "A \"fast\", big one");
 
   EXPECT_EQ(rows[1].at("knob"), "depth");
-  EXPECT_NE((" " + rows[1].at("options") + " ").find(" depth=2 "), std::string::npos);
+  EXPECT_TRUE(hasText((" " + rows[1].at("options") + " "), " depth=2 "));
   EXPECT_EQ(rows[1].at("path_flips"), "3");
   EXPECT_EQ(rows[1].at("same_samples_rmse"), "");
   EXPECT_EQ(rows[1].at("cause"), "algorithm");
@@ -70,7 +71,7 @@ TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::badScene);
-    EXPECT_NE(std::string(error.what()).find("old.csv:3"), std::string::npos);
+    EXPECT_TRUE(hasText(std::string(error.what()), "old.csv:3"));
   }
 }
 
@@ -94,7 +95,7 @@ TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
   now.points[0].total.rmse = 0.2752;
   const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {});
   ASSERT_EQ(grown.size(), 1u);
-  EXPECT_NE(grown[0].find("total_rmse was 0.25, is 0.2752"), std::string::npos) << grown[0];
+  EXPECT_TRUE(hasText(grown[0], "total_rmse was 0.25, is 0.2752"));
 }
 
 // The limit is a tenth more than 30 %, and two of the 100 pixels: 35 %.
