@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "has_text.h"
 #include "io/load_scene.h"
 #include "make/shape.h"
 
@@ -81,7 +82,7 @@ std::string rowOf(const std::string& name) {
 
 void expectListed(const std::string& row, const std::vector<std::string>& items) {
   for (const std::string& item : items) {
-    EXPECT_NE(row.find(item), std::string::npos) << item << " is not in: " << row;
+    EXPECT_TRUE(hasText(row, item)) << item << " is not in: " << row;
   }
 }
 

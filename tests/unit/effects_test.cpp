@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "has_text.h"
 
 namespace whit {
 namespace {
@@ -42,8 +43,8 @@ TEST(ParseEffects, UnknownNameIsAUsageErrorWithTheNearestOne) {
     FAIL() << "expected an error";
   } catch (const Error& e) {
     EXPECT_EQ(e.status(), ExitStatus::usage);
-    EXPECT_NE(std::string(e.what()).find("'shadow'"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("'shadows'"), std::string::npos) << e.what();
+    EXPECT_TRUE(hasText(std::string(e.what()), "'shadow'")) << e.what();
+    EXPECT_TRUE(hasText(std::string(e.what()), "'shadows'")) << e.what();
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <limits>
-#include <stdexcept>
+
+#include "temporary_folder.h"
 
 namespace whit {
 namespace {
@@ -18,19 +18,13 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 class ControlGroups : public testing::Test {
  protected:
-  ControlGroups() {
-    std::string name = (fs::temp_directory_path() / "whit-cgroup-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    root_ = name;
-  }
-  ~ControlGroups() override { fs::remove_all(root_); }
-
   void put(const std::string& file, const std::string& text) {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << text << '\n';
   }
 
-  fs::path root_;
+  const TemporaryFolder folder_;
+  const fs::path root_ = folder_.path();
 };
 
 using CgroupQuota = ControlGroups;

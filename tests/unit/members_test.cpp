@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "has_text.h"
 #include "scene/members.h"
 
 namespace whit {
@@ -40,7 +41,7 @@ void expectDocumented(const std::string& page) {
   forEachMember<Noun>([&](const auto& member) {
     if (!member.rules.inFiles) return;
     const std::string name = std::string("`") + member.name + "`";
-    EXPECT_NE(page.find(name), std::string::npos) << name;
+    EXPECT_TRUE(hasText(page, name)) << name;
   });
 }
 

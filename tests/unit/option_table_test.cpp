@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "has_text.h"
 
 namespace whit {
 namespace {
@@ -85,7 +86,7 @@ TEST(OptionTable, UnknownNamesNameTheNearest) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::usage);
-    EXPECT_NE(std::string(error.what()).find("did you mean 'depth'?"), std::string::npos);
+    EXPECT_TRUE(hasText(std::string(error.what()), "did you mean 'depth'?"));
   }
 }
 

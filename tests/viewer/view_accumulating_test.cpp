@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
+#include "has_text.h"
 #include "output/open_and_warn.h"
 #include "viewer/panel.h"
 #include "viewer/session/frame_tracer.h"
@@ -147,7 +148,7 @@ TEST_F(Viewer, AccumulatesAtRest) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_NE(lines[0].find("--spp=256"), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], "--spp=256"));
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }

@@ -1,6 +1,7 @@
 // Scenes saved with their edits: read by whit render they give the picture that was on screen.
 #include <gtest/gtest.h>
 
+#include "has_text.h"
 #include "io/load_scene.h"
 #include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
@@ -38,7 +39,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny-edited.json -o tiny-edited.png --size=800x480");
-  EXPECT_NE(lines[1].find("tiny-edited-2.json"), std::string::npos) << "it was overwritten";
+  EXPECT_TRUE(hasText(lines[1], "tiny-edited-2.json")) << "it was overwritten";
   expectThatItShows("shown.png", lines[0]);
 
   // Only what was edited and the camera differ from the original file.
@@ -89,7 +90,7 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_EQ(lines[0].find("--allow-outside"), std::string::npos) << lines[0];
+  EXPECT_FALSE(hasText(lines[0], "--allow-outside"));
   expectThatItShows("shown.png", lines[0]);
   // Paths are relative to the folder of the new file.
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
@@ -105,7 +106,7 @@ TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
       "wait 2 frames\nscreenshot shown.png\nkey C\nkey Ctrl+S\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_NE(lines[0].find("--eye=400000"), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], "--eye=400000"));
   for (const std::string& line : lines) expectThatItShows("shown.png", line);
 }
 
@@ -165,7 +166,7 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_NE(lines[0].find(" --allow-outside"), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], " --allow-outside"));
   expectThatItShows("shown.png", lines[0]);
 }
 
@@ -207,7 +208,7 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
     ASSERT_EQ(lines.size(), 3u) << outcome.out;
     EXPECT_NE(codes("own.png").codes, codes("sky.png").codes);
     expectThatItShows("own.png", lines[0]);
-    EXPECT_EQ(lines[1].find("--sky"), std::string::npos) << lines[1];
+    EXPECT_FALSE(hasText(lines[1], "--sky"));
     expectThatItShows("sky.png", lines[1]);
     expectThatItShows("sky.png", lines[2]);
   }
@@ -239,7 +240,7 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   const cli::Outcome outcome = play(
       "errors show\nbare\nasked\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
       "key Ctrl+S\nkey C\n");
-  EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "bad.hdr"));
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
+#include "has_text.h"
 #include "output/open_and_warn.h"
 
 namespace whit::view {
@@ -124,7 +125,7 @@ TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
 
 TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
   session_->act("set depth 1000");
-  EXPECT_NE(state().error.find("depth"), std::string::npos);
+  EXPECT_TRUE(hasText(state().error, "depth"));
   EXPECT_EQ(state().options.depth, kDepthLimit);
 
   act("left 3 0\nfit\nset depth 2");
@@ -201,7 +202,7 @@ TEST_F(Sessions, TheCommandMakesWhatIsShown) {
   EXPECT_EQ(session_->command().rfind("whit render ", 0), 0u);
   act("view depth");
   EXPECT_EQ(session_->command().rfind("whit-view ", 0), 0u);
-  EXPECT_NE(session_->command().find(" --view=depth"), std::string::npos);
+  EXPECT_TRUE(hasText(session_->command(), " --view=depth"));
 }
 
 }  // namespace

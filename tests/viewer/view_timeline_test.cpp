@@ -2,6 +2,7 @@
 #include "output/open_and_warn.h"
 #include "viewer/panel.h"
 
+#include "has_text.h"
 #include "render_thread_fixture.h"
 #include "viewer_fixture.h"
 
@@ -128,8 +129,8 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 
-  EXPECT_NE(lines[1].find("--eye"), std::string::npos) << "moved by hand: " << lines[1];
-  EXPECT_NE(lines[1].find("--time 1."), std::string::npos) << lines[1];
+  EXPECT_TRUE(hasText(lines[1], "--eye")) << "moved by hand: " << lines[1];
+  EXPECT_TRUE(hasText(lines[1], "--time 1."));
 }
 
 // The bar of the time is there without a panel. A click on its button pauses, and then the picture
@@ -139,7 +140,7 @@ TEST_F(Viewer, TheTimeBarPauses) {
   const cli::Outcome outcome =
       play("asked\npoint 135 272\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n",
            {"--size", "400x300"});
-  EXPECT_NE(outcome.out.find(" --time "), std::string::npos) << outcome.out;
+  EXPECT_TRUE(hasText(outcome.out, " --time "));
 }
 
 TEST_F(Viewer, AScenePausedAtATimeShowsThat) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/option_table.h"
+#include "has_text.h"
 
 namespace whit::view {
 namespace {
@@ -24,7 +25,7 @@ TEST(Verbs, AreInTheReadme) {
   std::stringstream page;
   page << std::ifstream(std::string(source ? source : ".") + "/viewer/README.md").rdbuf();
 
-  EXPECT_NE(page.str().find(expected + "\n"), std::string::npos) << expected;
+  EXPECT_TRUE(hasText(page.str(), expected + "\n")) << expected;
 }
 
 TEST(Verbs, HaveKeysOfTheirOwn) {

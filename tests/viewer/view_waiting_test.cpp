@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include "has_text.h"
 #include "render_thread_fixture.h"
 #include "viewer/session/scene_reader.h"
 #include "viewer_fixture.h"
@@ -54,7 +55,7 @@ TEST_F(Reading, ABrokenSceneIsAnError) {
   } catch (const std::exception& error) {
     what = error.what();
   }
-  EXPECT_NE(what.find("tiny.json:1"), std::string::npos) << what;
+  EXPECT_TRUE(hasText(what, "tiny.json:1"));
   EXPECT_FALSE(reader.busy());
 }
 
@@ -105,8 +106,8 @@ TEST_F(Viewer, TheOldSceneLivesWhileAnotherOneIsRead) {
                "wait 10 frames\nwait sharp\nkey C\nwait 300 frames\nscreenshot after.png\n",
            {"--size", "400x300"});
 
-  EXPECT_NE(outcome.out.find("render tiny.json"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find(" --camera=side"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(hasText(outcome.out, "render tiny.json"));
+  EXPECT_TRUE(hasText(outcome.out, " --camera=side"));
   EXPECT_NE(rows(codes("during.png"), 200), rows(codes("before.png"), 200));
   EXPECT_NE(rows(codes("during.png"), -40), rows(codes("after.png"), -40)) << "no progress";
 }
@@ -128,8 +129,8 @@ TEST_F(Viewer, WithoutASceneItOffersSome) {
   unsetenv("WHIT_SCENES");
 
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("broken.json#/lights"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.out.find("whit render aa "), std::string::npos) << outcome.out;
+  EXPECT_TRUE(hasText(outcome.err, "broken.json#/lights"));
+  EXPECT_TRUE(hasText(outcome.out, "whit render aa "));
   EXPECT_NE(rows(codes("error.png"), -60), rows(codes("choose.png"), -60));
 }
 

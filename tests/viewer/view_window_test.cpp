@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "has_text.h"
 #include "viewer/session/view_files.h"
 #include "viewer/window.h"
 #include "viewer_fixture.h"
@@ -20,8 +21,8 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_EQ(lines[0].find("--eye=0,2,6"), std::string::npos) << "it has not moved: " << lines[0];
-  EXPECT_NE(lines[0].find("--exposure=0.25"), std::string::npos) << lines[0];
+  EXPECT_FALSE(hasText(lines[0], "--eye=0,2,6")) << "it has not moved: " << lines[0];
+  EXPECT_TRUE(hasText(lines[0], "--exposure=0.25"));
 
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
@@ -53,7 +54,7 @@ TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[1], lines[0]);
-  EXPECT_NE(lines[0].find("--ortho=3"), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], "--ortho=3"));
 
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
@@ -68,8 +69,8 @@ TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_NE(lines[0].find("--camera=side"), std::string::npos) << lines[0];
-  EXPECT_NE(lines[0].find("--eye="), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], "--camera=side"));
+  EXPECT_TRUE(hasText(lines[0], "--eye="));
 
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
@@ -82,7 +83,7 @@ TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_EQ(lines[0], lines[2]);
-  EXPECT_NE(lines[0].find("--eye=-"), std::string::npos) << lines[0];  // it flew to the left
+  EXPECT_TRUE(hasText(lines[0], "--eye=-"));  // it flew to the left
 
   render(lines[0], "again.png");
   render(lines[0], "again.exr");
@@ -103,8 +104,8 @@ TEST_F(Viewer, KeysChooseCameras) {
       "key C\nkey 2\nwait 3 frames\nwait sharp\nkey C\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
-  EXPECT_NE(lines[0].find(" --camera=side"), std::string::npos) << lines[0];
-  EXPECT_EQ(lines[0].find("--eye"), std::string::npos) << lines[0];
+  EXPECT_TRUE(hasText(lines[0], " --camera=side"));
+  EXPECT_FALSE(hasText(lines[0], "--eye"));
   // A camera that has moved is printed in full, and key 2 brings back the own one.
   EXPECT_NE(lines[1], lines[0]);
   EXPECT_EQ(lines[2], lines[0]);
@@ -139,25 +140,25 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
 // The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
   const cli::Outcome first = play("wait sharp\nkey C\nkey P\nwait 2 frames\n", {"--size", "scene"});
-  EXPECT_NE(first.out.find(" --size=533x355"), std::string::npos) << first.out;
+  EXPECT_TRUE(hasText(first.out, " --size=533x355"));
 
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
-  EXPECT_NE(kept.find("\"panel\": true"), std::string::npos) << kept;
-  EXPECT_NE(kept.find("/tiny.json\""), std::string::npos) << kept;
+  EXPECT_TRUE(hasText(kept, "\"panel\": true"));
+  EXPECT_TRUE(hasText(kept, "/tiny.json\""));
 
   // The size of the window is kept for the next run.
   play("wait sharp\nresize 300 300\nwait 10 frames\n", {"--size", "scene"});
   const cli::Outcome third = play("wait sharp\nkey C\n", {"--size", "scene"});
-  EXPECT_NE(third.out.find(" --size=300x200"), std::string::npos) << third.out;
+  EXPECT_TRUE(hasText(third.out, " --size=300x200"));
 }
 
 TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
   play("wait sharp\nresize 2400 2400\nwait 10 frames\n", {"--size", "scene"});
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
-  EXPECT_NE(kept.find("2400,\n    2400"), std::string::npos) << kept;
+  EXPECT_TRUE(hasText(kept, "2400,\n    2400"));
 
   const cli::Outcome second = play("wait sharp\nkey C\n", {"--size", "scene"});
-  EXPECT_NE(second.out.find(" --size=800x533"), std::string::npos) << second.out;
+  EXPECT_TRUE(hasText(second.out, " --size=800x533"));
   EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // kept for a larger screen
 }
 
@@ -216,7 +217,7 @@ TEST_F(Viewer, TheSavedPictureHasAllPixelsAndSamples) {
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], lines[1]);
   for (const char* part : {"--size=400x300", "--spp=4", "--light-samples=4"}) {
-    EXPECT_NE(lines[0].find(part), std::string::npos) << lines[0];
+    EXPECT_TRUE(hasText(lines[0], part));
   }
   render(lines[0], "again.png");
   expectSameCodes("tiny-0001.png", "again.png");
@@ -248,7 +249,7 @@ TEST_F(Viewer, CamerasAreChosenFromTheirList) {
       "asked\nkey L\nwait 5 frames\npoint 440 61\nwait 20 frames\nclick 440 61\n"
       "wait 3 frames\nwait sharp\nkey C\n",
       {"--size", "500x300"});
-  EXPECT_NE(outcome.out.find(" --camera=side"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(hasText(outcome.out, " --camera=side"));
 }
 
 // The first edit is of the lamp, the second one of its position.
@@ -265,9 +266,9 @@ TEST_F(Viewer, EditsAreUndoneOneByOne) {
 
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
-  EXPECT_NE(lines[0].find("/lights/0/position="), std::string::npos) << lines[0];
-  EXPECT_NE(lines[1].find("/lights/0/intensity="), std::string::npos) << lines[1];
-  EXPECT_EQ(lines[1].find("/lights/0/position="), std::string::npos) << lines[1];
+  EXPECT_TRUE(hasText(lines[0], "/lights/0/position="));
+  EXPECT_TRUE(hasText(lines[1], "/lights/0/intensity="));
+  EXPECT_FALSE(hasText(lines[1], "/lights/0/position="));
   EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=800x480");
   render(lines[2], "again.png");
   expectSameCodes("shown.png", "again.png");
@@ -296,7 +297,7 @@ TEST_F(Viewer, ErrorsEndAScript) {
   std::ofstream(folder_ / "script.txt") << "drop missing.json\nwait 60 frames\nwait sharp\n";
   const cli::Outcome outcome = view({"--script", "script.txt"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("missing.json"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "missing.json"));
 
   std::ofstream(folder_ / "script.txt") << "wait\n";
   EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
@@ -307,7 +308,7 @@ TEST(ViewerAlone, SaysThatThereIsNoDisplay) {
   const cli::Outcome outcome =
       runOn("", folder.path().string(), {WHIT_VIEW_PROGRAM, "whitted", "--quiet"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("no display"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.err, "no display"));
 }
 
 TEST(ViewerAlone, RefusesWhatItCannotShow) {
