@@ -18,9 +18,33 @@ apart() {
   fi
 }
 
-# makeCleanSystem RELEASE FOLDER LOG: the least that Debian has.
-makeCleanSystem() {
+# debootstrapped RELEASE FOLDER LOG
+debootstrapped() {
   apart debootstrap --variant=minbase "$1" "$2" "$(mirror)" >"$3" 2>&1 ||
     { tail -5 "$3"; cannot "debootstrap did not finish"; }
   echo force-unsafe-io >"$2/etc/dpkg/dpkg.cfg.d/unsafe"  # it need not survive a loss of power
+}
+
+# keepCleanSystem RELEASE: makes the system in $WHIT_CLEAN_SYSTEMS that others are copies of, or waits for
+# who makes it.
+keepCleanSystem() {
+  local kept=$WHIT_CLEAN_SYSTEMS/$1
+  (
+    flock 9
+    if [ ! -d "$kept" ]; then
+      rm -rf "$kept.part"
+      debootstrapped "$1" "$kept.part" "$kept.log"
+      mv "$kept.part" "$kept"
+    fi
+  ) 9>"$kept.lock"
+}
+
+# makeCleanSystem RELEASE FOLDER LOG: the least that Debian has.
+makeCleanSystem() {
+  if [ -z "${WHIT_CLEAN_SYSTEMS:-}" ]; then
+    debootstrapped "$@"
+  else
+    keepCleanSystem "$1" || exit
+    cp -a "$WHIT_CLEAN_SYSTEMS/$1" "$2"
+  fi
 }

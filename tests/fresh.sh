@@ -39,7 +39,8 @@ commit=$(git -C "$root" rev-parse --short HEAD 2>/dev/null) || cannot "this is n
   cannot "there is no room for it in ${TMPDIR:-/tmp}"
 
 work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
+beside=
+trap '[ -z "$beside" ] || kill -- "-$beside" 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
 logs=$root/build-fresh
 mkdir -p "$logs"
 objects=
@@ -87,8 +88,8 @@ within() {
       env | grep -E '^(CCACHE_(SLOPPINESS|BASEDIR|NOHASHDIR)|CMAKE_CXX_COMPILER_LAUNCHER)='
     )
     settings+=(CCACHE_DIR=/var/cache/ccache)
-    # The objects are root's.
-    if [ "$user" != root ]; then settings+=(CCACHE_READONLY=1 CCACHE_TEMPDIR=/tmp/ccache); fi
+    # Those are root's: a user has some of his own, which are kept as well.
+    if [ "$user" != root ]; then settings+=(CCACHE_DIR=/var/cache/ccache/visitor); fi
   fi
   if [ -n "$data" ]; then settings+=(WHIT_DATA=/data); fi
   apart bash "$enter" "$system" "$work/$release-archives" "$objects" "$data" --userspec="$user:$user" \
@@ -98,8 +99,8 @@ within() {
 
 # installed PACKAGE...
 installed() {
-  within root apt-get install -y -qq --no-install-recommends "$@" >"$work/log" 2>&1 ||
-    { tail -5 "$work/log"; cannot "$* cannot be installed in the fresh system"; }
+  within root apt-get install -y -qq --no-install-recommends "$@" >"$work/$release.log" 2>&1 ||
+    { tail -5 "$work/$release.log"; cannot "$* cannot be installed in the fresh system"; }
 }
 
 # timed WHAT COMMAND...: its time, and the end of what it says when it fails or its compiler warns.
@@ -124,7 +125,7 @@ makeBase() {
   release=$1 system=$work/$1
   mkdir "$work/$release-archives"
   echo "-- a fresh $release, and commit $commit"
-  makeCleanSystem "$release" "$system" "$work/debootstrap.log"
+  makeCleanSystem "$release" "$system" "$work/$release.log"
   within root apt-get update -qq || cannot "there is no package list for the fresh system"
   if [ -n "$objects" ]; then installed ccache; fi
 }
@@ -142,8 +143,8 @@ answers() {
     status=$?
     kill $!
     rm address
-    exit $status' >"$work/log" 2>&1 ||
-    { cat "$work/log"; echo "!! $visitor: whit serve does not answer" >&2; return 1; }
+    exit $status' >"$work/$release.log" 2>&1 ||
+    { cat "$work/$release.log"; echo "!! $visitor: whit serve does not answer" >&2; return 1; }
 }
 
 # testWithData: those tests again that were skipped because $WHIT_DATA was missing.
@@ -172,6 +173,7 @@ visit() {
   if [ "$visitor" != debian12 ]; then
     user=visitor home=/home/visitor
     within root useradd --create-home visitor
+    if [ -n "$objects" ]; then within root install -d -o visitor /var/cache/ccache/visitor; fi
   fi
   if [ "$visitor" = debian12-sudo ]; then
     installed sudo
@@ -180,8 +182,8 @@ visit() {
   mkdir "$system$home/whit"
   git -C "$root" archive HEAD | tar -x -C "$system$home/whit"
   if [ "$visitor" = debian13 ]; then
-    within root "$home/whit/scenes/install_packages.sh" build view python test >"$work/log" 2>&1 ||
-      { tail -5 "$work/log"; cannot "the packages cannot be installed in the fresh system"; }
+    within root "$home/whit/scenes/install_packages.sh" build view python test >"$work/$release.log" 2>&1 ||
+      { tail -5 "$work/$release.log"; cannot "the packages cannot be installed in the fresh system"; }
   fi
   within root chown -R "$user:$user" "$home/whit"
   before=$(ls -A "$system$home")
@@ -202,21 +204,44 @@ visit() {
   rm -rf --one-file-system "$system"
   return $status
 }
-failed=()
+
+# visitAll VISITOR...: one after the other; those that fail are named in a file.
+visitAll() {
+  local visitor status
+  for visitor in "$@"; do
+    # Not as a condition: the shell would then go on after what fails within.
+    set +e
+    (set -e; visit "$visitor")
+    status=$?
+    set -e
+    case $status in
+      0) ;;
+      77) exit 77 ;;
+      *) echo "$visitor" >>"$work/failed" ;;
+    esac
+  done
+}
+
+# Much of a visit has one thread or waits for the network: Debian 13 is visited beside the other.
+ofDebian13=() ofDebian12=()
 for visitor in "${visitors[@]}"; do
-  # Not as a condition: the shell would then go on after what fails within.
-  set +e
-  (set -e; visit "$visitor")
-  status=$?
-  set -e
-  case $status in
-    0) ;;
-    77) exit 77 ;;
-    *) failed+=("$visitor") ;;
+  case $visitor in
+    debian13) ofDebian13+=("$visitor") ;;
+    *) ofDebian12+=("$visitor") ;;
   esac
 done
-if [ ${#failed[@]} -gt 0 ]; then
-  echo "fresh: failed as ${failed[*]}" >&2
+set -m  # a process group of its own, for the trap
+visitAll "${ofDebian13[@]}" >"$work/beside.log" 2>&1 &
+beside=$!
+set +m
+visitAll "${ofDebian12[@]}"
+status=0
+wait "$beside" || status=$?
+beside=
+cat "$work/beside.log"
+[ $status -eq 0 ] || exit $status
+if [ -s "$work/failed" ]; then
+  echo "fresh: failed as $(xargs <"$work/failed")" >&2
   exit 1
 fi
 echo "fresh: both commands work as ${visitors[*]}"

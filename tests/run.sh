@@ -42,7 +42,11 @@ failed=()
 leftOut=()
 notes=()
 failures=$(mktemp) output=$(mktemp)
-trap 'rm -f "$failures" "$output"' EXIT
+if $full; then
+  WHIT_CLEAN_SYSTEMS=$(mktemp -d)
+  export WHIT_CLEAN_SYSTEMS
+fi
+trap 'rm -rf --one-file-system "$failures" "$output" "${WHIT_CLEAN_SYSTEMS:-}"' EXIT
 
 # step NAME COMMAND...: runs it, remembers a failure and its last lines, goes on. Status 77: this system
 # has no way to it.
@@ -129,6 +133,13 @@ checkThreads() {
   done
 }
 
+# What the package and the fresh systems begin with, which is mostly to wait. They say what went wrong.
+makeCleanSystems() (
+  . tests/debian13.sh
+  . tests/clean_system.sh
+  for release in bookworm trixie; do keepCleanSystem "$release" || exit; done
+) >/dev/null 2>&1
+
 # 10 s a reader; tests/fuzz/run.sh by itself runs for longer.
 fuzzReaders() {
   tests/fuzz/run.sh 10
@@ -150,6 +161,7 @@ if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 step "programs that tests start" installTestPrograms
 useCompilerCache "$root"
+if $full; then makeCleanSystems & fi
 step "format" tests/format.sh --check
 if $full; then
   tidiness=()
