@@ -12,6 +12,7 @@ namespace whit::view {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
   const cli::Outcome outcome = play(
@@ -221,6 +222,34 @@ TEST_F(Viewer, TheSavedPictureHasAllPixelsAndSamples) {
   }
   render(lines[0], "again.png");
   expectSameCodes("tiny-0001.png", "again.png");
+}
+
+// The file, its name and the printed command are those of the view.
+TEST_F(Viewer, TheSavedDebugViewIsTheOneShown) {
+  const cli::Outcome outcome =
+      play("bare\nasked\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey F12\n",
+           {"--size", "240x160", "--view", "depth"});
+
+  EXPECT_EQ(outcome.out.find("whit-view tiny.json --view=depth "), 0u) << outcome.out;
+  expectSameCodes("tiny-depth-0001.png", "shown.png");
+  EXPECT_FALSE(fs::exists(folder_ / "tiny-depth-0001.exr")) << "that would be the picture";
+  EXPECT_NE(cli::readFile(folder_ / "tiny-depth-0001.png").find("view\0depth"s), std::string::npos);
+}
+
+TEST_F(Viewer, TheSavedReferenceIsThatOfItsCommand) {
+  const cli::Outcome outcome =
+      play("bare\nasked\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey F12\n",
+           {"--size", "48x32", "--view", "reference"});
+
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  expectSameCodes("tiny-reference-0001.png", "shown.png");
+  for (const char* extension : {".png", ".exr"}) {
+    render(lines[0], std::string("again") + extension);
+    const Image saved = readImage(folder_ / ("tiny-reference-0001"s + extension), ImageLimits());
+    const Image again = readImage(folder_ / ("again"s + extension), ImageLimits());
+    EXPECT_EQ(saved.pixels, again.pixels) << extension;
+  }
 }
 
 // The list of cameras and the keys take the place of the panel. Escape closes what is open, and

@@ -123,7 +123,7 @@ std::string ServedSession::download(bool exr) {
   lock.unlock();
   if (frame == before) return "";
   return exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
-             : encodePng(frame->film.display, frame->metadata);
+             : encodePng(frame->film.display, view::pngMetadata(*frame));
 }
 
 void ServedSession::loop() {

@@ -168,6 +168,11 @@ std::string settingsFile() {
   return std::string(home ? home : "") + "/.config/whit/viewer.json";
 }
 
+std::string viewName(DebugView view) { return entryOf(kDebugViewNames, view); }
+
+// The reference is a picture, which whit render makes as well.
+bool isPicture(DebugView view) { return view == DebugView::none || view == DebugView::reference; }
+
 }  // namespace
 
 std::string viewCommand(const std::string& scene, const cli::CommonOptions& common,
@@ -181,9 +186,7 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
 
   std::string text = renderOf(scene, shown.name);
   const DebugView view = frame.request.view;
-  if (view != DebugView::none && view != DebugView::reference) {
-    text = "whit-view " + quoted(scene) + " --view=" + entryOf(kDebugViewNames, view);
-  }
+  if (!isPicture(view)) text = "whit-view " + quoted(scene) + " --view=" + viewName(view);
   text = commandWith(text, options, usual);
 
   if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
@@ -228,13 +231,22 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
                     (leavesFolder ? " --allow-outside" : "")};
 }
 
+ImageMetadata pngMetadata(const TracedFrame& frame) {
+  ImageMetadata metadata = frame.metadata;
+  const DebugView view = frame.request.view;
+  if (!isPicture(view)) metadata.emplace_back("view", viewName(view));
+  return metadata;
+}
+
 std::string savePicture(const TracedFrame& frame) {
   const cli::WriteScope scope;
-  const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
-  std::string name = freeName(nameOf, {".png", ".exr"});
+  const DebugView view = frame.request.view;
+  const std::string kind = view == DebugView::none ? "" : "-" + viewName(view);
+  const auto nameOf = [&](int i) { return frame.scene->scene.name + kind + formatted("-%04d", i); };
+  const std::string name = freeName(nameOf, {".png", ".exr"});
 
-  writeImage(name + ".png", frame.film, frame.metadata);
-  if (frame.debug) return name + ".png";
+  writeImage(name + ".png", frame.film, pngMetadata(frame));
+  if (!isPicture(view)) return name + ".png";
   writeImage(name + ".exr", frame.film, frame.metadata);
   return name + ".png and .exr";
 }

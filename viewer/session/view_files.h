@@ -27,8 +27,12 @@ struct SavedScene {
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const TracedFrame& frame,
                      const Camera& camera, RenderOptions options, const RenderOptions& chosen);
 
+// Returns the metadata of the PNG, which also name the debug view that it shows.
+ImageMetadata pngMetadata(const TracedFrame& frame);
+
 // Writes NAME-NNNN.png and .exr into the current folder, with the first number that is free; of a
-// debug view only the PNG. Returns "NAME-NNNN.png and .exr". Throws Error(io).
+// debug view NAME-VIEW-NNNN.png, and of the reference the EXR as well. Returns
+// "NAME-NNNN.png and .exr". Throws Error(io).
 std::string savePicture(const TracedFrame& frame);
 
 // Settings that stay from one run to the next, in whit/viewer.json below $XDG_CONFIG_HOME.
