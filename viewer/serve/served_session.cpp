@@ -1,7 +1,6 @@
 #include "viewer/serve/served_session.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -268,12 +267,9 @@ Json ServedSession::tablesJson() const {
     json["options"].push_back(describe(control));
   }
 
-  // The page lists what it can do, and knows the line of each key. Some verbs without an action are
-  // done by the page itself.
-  constexpr std::array<std::string_view, 5> kOfPage{"cameras", "lines", "copy", "panel", "keys"};
+  // The page lists what it can do, and knows the line of each key.
   for (const view::Verb& verb : view::verbs()) {
-    const bool own = std::ranges::find(kOfPage, verb.name) != kOfPage.end();
-    if (verb.keys.empty() || !(verb.act || own)) continue;
+    if (verb.keys.empty() || !(verb.act || verb.onPage)) continue;
 
     json["keys"].push_back({verb.keys, verb.help});
     for (const std::string& key : split(std::string(verb.keys), ' ')) {

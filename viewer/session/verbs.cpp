@@ -20,6 +20,11 @@ void call(Session& session, const Message& /*message*/) {
   (session.*kMember)();
 }
 
+// The window and the page each do this in their own way.
+Verb byFaces(std::string_view name, std::string_view keys, std::string_view help) {
+  return {.name = name, .keys = keys, .help = help, .onPage = true};
+}
+
 }  // namespace
 
 std::span<const Verb> verbs() { return Session::verbs(); }
@@ -55,7 +60,7 @@ std::span<const Verb> Session::verbs() {
        "go to that camera of the scene",
        [](S s, M m) { s.jumpToNumber(static_cast<std::size_t>(m.numbers[0])); },
        {1, 0, 1e6, 0, 1}},
-      {"cameras", "L", "list the cameras with their names"},
+      byFaces("cameras", "L", "list the cameras with their names"),
       {"play", "Space", "play or pause what moves, or fly along the camera path",
        call<&Session::playOrPause>},
       {"expose",
@@ -68,7 +73,7 @@ std::span<const Verb> Session::verbs() {
        "show the rays of that pixel",
        [](S s, M m) { s.pick(m.numbers[0], m.numbers[1]); },
        {2, 0, kLargestSide}},
-      {"lines", "T", "draw the rays into the scene, or hide them"},
+      byFaces("lines", "T", "draw the rays into the scene, or hide them"),
       {"next-view", "V",
        "show depth, normals, albedo, rays, cost, packet occupancy, the scalar reference and the "
        "difference from it in turn, with the value of the pixel under the pointer",
@@ -78,8 +83,8 @@ std::span<const Verb> Session::verbs() {
       {"save-scene", "Ctrl+S",
        "save the scene with all edits, options and this view as NAME-edited.json, never over "
        "another file"},
-      {"copy", "C",
-       "copy and print the whit render command that makes the same picture, bit for bit"},
+      byFaces("copy", "C",
+              "copy and print the whit render command that makes the same picture, bit for bit"),
       {"save-picture", "F12",
        "save PNG and EXR as soon as the picture has full resolution and all samples; Esc ends the "
        "wait"},
@@ -92,8 +97,8 @@ std::span<const Verb> Session::verbs() {
        {},
        false,
        true},
-      {"panel", "P", "show the panel"},
-      {"keys", "H", "show the keys"},
+      byFaces("panel", "P", "show the panel"),
+      byFaces("keys", "H", "show the keys"),
       {"full-screen", "F11", "full screen"},
       {"close", "Esc",
        "give up what is read or awaited, close what is open; a window then quits, but asks before "

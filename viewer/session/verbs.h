@@ -25,11 +25,12 @@ struct Numbers {
 struct Verb {
   std::string_view name;
   std::string_view keys, help;  // its row in the list of keys; empty: it has none
-  // Does it; null: that is left to the window or to the page.
+  // Does it; null: that is left to the window, and to the page if `onPage` is set.
   void (*act)(Session& session, const Message& message) = nullptr;
   Numbers numbers = {};
   bool named = false;  // an option or an effect is named before the numbers
   bool text = false;   // a text follows, which may hold blanks
+  bool onPage = false;
 };
 
 // The table, in the order of the list of keys.
