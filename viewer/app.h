@@ -49,6 +49,7 @@ class App {
     const Scene& scene = session_.state().scene->scene;
     return {scene.width, scene.height};
   }
+  bool waitsForReader() const { return session_.waitsForReader(); }  // at its end
   // Returns the settings as the user left them, with the window's size as it was read.
   KeptSettings kept() const;
 

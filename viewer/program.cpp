@@ -1,6 +1,7 @@
 // The command line of whit-view.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "command_line/help_text.h"
 #include "viewer/app.h"
@@ -102,6 +103,13 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   KeptSettings left = app->kept();
   if (!window.isFullScreen() && window.size() != opened) left.window = window.size();
   writeKeptSettings(left);
+
+  // The thread that reads a scene looks only now and then whether it was given up, which may take
+  // it many seconds. Nothing that it holds has to be saved.
+  if (app->waitsForReader()) {
+    std::fflush(stdout);
+    std::quick_exit(0);
+  }
   return 0;
 }
 

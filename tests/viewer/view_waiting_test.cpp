@@ -1,5 +1,6 @@
 // What the viewer shows while it reads, where it has no scene or no light, and what ends waiting.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <filesystem>
@@ -110,6 +111,32 @@ TEST_F(Viewer, TheOldSceneLivesWhileAnotherOneIsRead) {
   EXPECT_TRUE(hasText(outcome.out, " --camera=side"));
   EXPECT_NE(rows(codes("during.png"), 200), rows(codes("before.png"), 200));
   EXPECT_NE(rows(codes("during.png"), -40), rows(codes("after.png"), -40)) << "no progress";
+}
+
+// Returns the processor time of all programs that this one has run so far.
+double programSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+// Dropping the repetitions of a triangle takes long, and is not interrupted.
+TEST_F(Viewer, QuitsWhileASceneIsRead) {
+  constexpr int kRepetitions = 600'000;
+  std::string model = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < kRepetitions; ++i) model += "f 1 2 3\n";
+  std::ofstream(folder_ / "slow.obj") << model;
+
+  const double before = programSeconds();
+  render("whit render slow.obj --size 16x16", "slow.png");
+  const double rendered = programSeconds();
+  play("asked\nwait sharp\ndrop slow.obj\nwait 20 frames\nkey Esc\nwait 2 frames\n");
+  const double viewed = programSeconds();
+
+  // Without waiting for the reader, little more is used than the viewer needs to start.
+  constexpr double kMostOfTheReading = 0.5;
+  EXPECT_LT(viewed - rendered, kMostOfTheReading * (rendered - before));
 }
 
 // Broken and missing files are said in the window, which goes on to ask for a scene.

@@ -136,6 +136,7 @@ class Session {
   // The message, what is being read or traced, and why the picture is black; empty: nothing.
   std::string notice() const;
   bool isReading() const { return reader_.busy(); }
+  bool waitsForReader() const { return reader_.holds(); }  // at its end
   // Closes the error, or else gives up what is read; the scene stays as it is. Returns false if
   // there is neither.
   bool close();
