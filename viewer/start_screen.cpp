@@ -9,7 +9,6 @@
 #include <future>
 
 #include "core/text.h"
-#include "io/files.h"
 #include "output/open_and_warn.h"
 #include "viewer/session/latest_progress.h"
 
@@ -51,9 +50,7 @@ void drawScenes(const std::vector<std::string>& recent, const std::vector<std::s
 // Lets the user choose a scene. Returns an empty name if the window is closed.
 std::string chooseScene(Window& window, const KeptSettings& kept, std::string error,
                         ScriptedUser* scripted) {
-  std::vector<std::string> shipped;
-  for (const auto& file : shippedScenes()) shipped.push_back(file.stem().string());
-
+  const std::vector<std::string> shipped = shippedNames();
   WindowState none;
   std::string chosen;
   while (chosen.empty() && !window.closing()) {

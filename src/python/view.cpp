@@ -77,7 +77,7 @@ std::string View::png() const {
       serve::ServedSession& session;
     } watch(served->session);
 
-    std::string png = served->session.download(false);
+    std::string png = served->session.download(false).bytes;
     if (png.empty()) {
       throwIo("the picture of the view takes too long or is closed: close() it, and use render()");
     }

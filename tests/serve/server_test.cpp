@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <thread>
@@ -430,6 +431,65 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
     EXPECT_TRUE(isTold()) << row.line << ": " << textAt(row.pointer) << ", as " << before;
   }
   session_->watch(-1);
+}
+
+// Without a scene pages choose among the shipped ones, and can name no other file.
+TEST_F(Serving, WithoutASceneTheShippedOnesAreOffered) {
+  const std::string shipped = folder_ / "shipped";
+  std::filesystem::create_directory(shipped);
+  std::filesystem::copy(folder_ / "tiny.json", shipped + "/aa.json");
+  setenv("WHIT_SCENES", shipped.c_str(), 1);
+
+  view::ViewOptions options = options_;
+  options.scene.clear();
+  ServedSession session(options, noScene());
+  session.watch(1);
+  std::shared_ptr<const Shot> shot;
+  // Waits until a text of the shots holds these words.
+  const auto isTold = [&](auto text, const std::string& words) {
+    constexpr double kLongEnoughMs = 30'000;
+    for (const Stopwatch waited; waited.ms() < kLongEnoughMs;) {
+      shot = session.wait(shot ? shot->number : 0);
+      if (shot && text(*shot).find(words) != std::string::npos) return true;
+    }
+    return false;
+  };
+  const auto live = [](const Shot& s) { return s.live; };
+  const auto tables = [](const Shot& s) { return *s.tables; };
+
+  EXPECT_TRUE(isTold(tables, "\"scenes\":[\"aa\"")) << "not the first of the list";
+  session.post(view::readMessages("scene " + options_.scene));
+  EXPECT_TRUE(isTold(live, "no shipped scene has this name"));
+  session.post(view::readMessages("scene aa"));
+  EXPECT_TRUE(isTold(tables, "\"scene\":\"aa\""));
+  EXPECT_EQ(shot->tables->find("\"scenes\""), std::string::npos);
+  EXPECT_TRUE(isTold([](const Shot& s) { return s.settled; }, "whit render aa "));
+  session.post(view::readMessages("scene aa"));
+  EXPECT_TRUE(isTold(live, "a scene is open already"));
+  unsetenv("WHIT_SCENES");
+}
+
+// What the table of verbs leaves to the page is in the page's script.
+TEST_F(Serving, ThePageDoesWhatTheVerbsLeaveToIt) {
+  const auto answer = client().Get(root_);
+  ASSERT_TRUE(answer);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(answer->body, found, std::regex("const here = \\{([^}]*)\\}")));
+  const std::string here = found[1];
+
+  session_->watch(1);
+  std::shared_ptr<const Shot> shot;
+  while (!shot) shot = session_->wait(0);
+  session_->watch(-1);
+  const Json lines = parseJson(*shot->tables, "tables")["lines"];
+
+  for (const view::Verb& verb : view::verbs()) {
+    if (verb.act || verb.keys.empty()) continue;
+    const bool isInPage =
+        std::regex_search(here, std::regex("\\b" + std::string(verb.name) + "[:,]"));
+    EXPECT_EQ(isInPage, verb.onPage) << verb.name;
+    EXPECT_EQ(lines.contains(verb.keys), verb.onPage) << verb.name;
+  }
 }
 
 // A page that is gone cannot say that its keys are let go.

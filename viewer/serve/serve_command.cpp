@@ -14,7 +14,7 @@ namespace whit::serve {
 
 namespace {
 
-constexpr const char* kServeUsage = "whit serve SCENE [options]";
+constexpr const char* kServeUsage = "whit serve [SCENE] [options]";
 constexpr const char* kServeSummary =
     "Shows the viewer in a browser: prints an address to open. Where there is no browser, forward "
     "the port over ssh, as the second line says. Control-C ends it.";
@@ -38,15 +38,19 @@ cli::OptionList listOptions(ServeJob& job) {
       job.bind);
 
   view::listViewOptions(list, job.view);
-  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
+  list.operands(
+      "SCENE",
+      "a scene file, a model, or the name of a shipped scene (default: choose in the page)", 0, 1,
+      job.scenes);
   return list;
 }
 
 #ifdef WHIT_SERVE
 int serve(const ServeJob& job) {
   auto progress = cli::makeProgressBar(job.view.common);
+  const std::string& name = job.view.scene;
   const std::shared_ptr<OpenScene> scene =
-      openAndWarn(job.view.scene, job.view.common, progress.get());
+      name.empty() ? noScene() : openAndWarn(name, job.view.common, progress.get());
 
   ServedSession session(job.view, scene);
   progress.reset();
@@ -88,7 +92,7 @@ int serveCommand(const std::vector<std::string>& words) {
   ServeJob job;
   if (!cli::parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
   view::settleViewOptions(job.view);
-  job.view.scene = job.scenes[0];
+  if (!job.scenes.empty()) job.view.scene = job.scenes[0];
   return serve(job);
 }
 

@@ -45,6 +45,13 @@ Json describe(const view::Control& control) {
 
 }  // namespace
 
+std::shared_ptr<OpenScene> noScene() {
+  // With light, nothing says why the picture is black.
+  const Json root{{"whit", 1}, {"ambient", {{"color", 1}}}};
+  const auto text = std::make_shared<const SceneText>(SceneText{"", root, {}});
+  return openScene({"", text}, {}, false);
+}
+
 void ServedSession::Alarm::ring() {
   {
     const std::lock_guard lock(mutex);
@@ -63,8 +70,6 @@ ServedSession::ServedSession(const view::ViewOptions& options,
                              const std::shared_ptr<OpenScene>& scene, std::shared_ptr<Alarm> alarm)
     : alarm_(std::move(alarm)),
       session_(options, scene, [alarm = alarm_] { alarm->ring(); }),
-      name_(scene->scene.name),
-      tables_(textOf(tablesJson())),
       size_(
           options.common.render.size.value_or(ImageSize{scene->scene.width, scene->scene.height})),
       loop_([this] { loop(); }) {}
@@ -107,7 +112,7 @@ void ServedSession::watch(int more) {
   alarm_->ring();
 }
 
-std::string ServedSession::download(bool exr) {
+Download ServedSession::download(bool exr) {
   std::unique_lock lock(mutex_);
   ++downloads_;
   alarm_->ring();
@@ -120,9 +125,10 @@ std::string ServedSession::download(bool exr) {
   const std::shared_ptr<const view::TracedFrame> frame = frame_;
   if (--downloads_ == 0) frame_.reset();
   lock.unlock();
-  if (frame == before) return "";
-  return exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
-             : encodePng(frame->film.display, view::pngMetadata(*frame));
+  if (frame == before) return {};
+  return {frame->scene->scene.name,
+          exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
+              : encodePng(frame->film.display, view::pngMetadata(*frame))};
 }
 
 void ServedSession::loop() {
@@ -232,6 +238,10 @@ void ServedSession::publish() {
   // The shot always holds the picture and the values that change with every picture.
   told_ = session_.notice();
   auto shot = std::make_shared<Shot>();
+  if (std::exchange(tabled_, state.scene) != state.scene) {
+    tables_ = std::make_shared<const std::string>(textOf(tablesJson()));
+  }
+  shot->tables = tables_;
   shot->picture = state.unfinished ? state.unfinished->display : state.shown.film.display;
   shot->exact = wasSharp_ = state.sharp;
   shot->live = textOf(liveJson());
@@ -262,6 +272,7 @@ Json ServedSession::tablesJson() const {
             {"views", kDebugViewNames},
             {"path", !scene.cameraPath.empty() && !state.timeline.there}};
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
+  if (state.sceneName.empty()) json["scenes"] = view::shippedNames();
 
   for (const view::Control& control : view::controlsOf(state.options)) {
     json["options"].push_back(describe(control));

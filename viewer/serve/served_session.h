@@ -21,12 +21,21 @@ using view::Message;
 // A picture as pages show it, and what they write beside it, as JSON.
 struct Shot {
   std::uint64_t number = 0;
+  // The options, cameras and views of the scene; of no scene, those that can be chosen.
+  std::shared_ptr<const std::string> tables;
   DisplayImage picture;
   bool exact = false;   // nothing moves and it gets no finer
   std::string live;     // changes from picture to picture: times, status, lines of rays
   std::string settled;  // changes when the user does something: options, effects, the ray tree
   std::uint64_t settledNumber = 0;
 };
+
+struct Download {
+  std::string scene, bytes;
+};
+
+// Returns an empty scene, which is served until another one is chosen.
+std::shared_ptr<OpenScene> noScene();
 
 class ServedSession {
  public:
@@ -38,6 +47,7 @@ class ServedSession {
     void ring();
     void wait(double seconds);
   };
+  // If options.scene is empty, pages choose among the shipped scenes, and `scene` is noScene().
   ServedSession(const view::ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                 std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
   ~ServedSession();
@@ -54,13 +64,11 @@ class ServedSession {
   void watch(int more);
   // Sets the most pixels of pictures in motion that the best link is good for.
   void limitPixels(double pixels) { mostPixels_ = pixels; }
-  // Returns the file of the view at full resolution, an EXR or a PNG; empty if that takes too long.
-  std::string download(bool exr);
+  // Returns the file of the view at full resolution, an EXR or a PNG; no bytes if that takes too
+  // long.
+  Download download(bool exr);
   // Nobody waits any longer, and nothing more is traced.
   void quit();
-  // Returns, as JSON, the table of options, the cameras and the views, which do not change.
-  const std::string& tables() const { return tables_; }
-  const std::string& name() const { return name_; }
 
  private:
   void loop();
@@ -76,7 +84,8 @@ class ServedSession {
 
   const std::shared_ptr<Alarm> alarm_;
   view::Session session_;
-  const std::string name_, tables_;
+  std::shared_ptr<const OpenScene> tabled_;  // the scene of tables_
+  std::shared_ptr<const std::string> tables_;
   ImageSize size_;
   std::optional<Camera> upright_;  // the view that fits a narrow page
   std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before

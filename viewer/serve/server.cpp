@@ -227,9 +227,10 @@ class Page {
     if (!news && clock_.ms() - sentMs_ < kAliveMs) return true;
 
     std::string json = "{\"page\":" + std::to_string(number_), tiles;
-    if (!std::exchange(greeted_, true)) json += ",\"tables\":" + session_.tables();
-
     if (news) {
+      const bool tabled = std::exchange(tables_, shot->tables) == shot->tables;
+      if (!tabled) json += ",\"tables\":" + *shot->tables;
+
       const Tiles next = pictures_.next(shot->picture, shot->exact, clock_.ms());
       moreTiles_ = shot->exact && !next.empty();
 
@@ -239,7 +240,7 @@ class Page {
       if (!next.empty())
         json += ",\"frame\":" + std::to_string(next.number) + ",\"tiles\":" + next.list;
       tiles = next.bytes;
-      if (shot->settledNumber != settled_) json += ",\"settled\":" + shot->settled;
+      if (!tabled || shot->settledNumber != settled_) json += ",\"settled\":" + shot->settled;
       settled_ = shot->settledNumber;
       seen_ = shot->number;
     }
@@ -266,7 +267,8 @@ class Page {
   const Stopwatch clock_;
   double sentMs_ = 0;
   std::uint64_t seen_ = 0, settled_ = 0;
-  bool greeted_ = false, moreTiles_ = false;
+  std::shared_ptr<const std::string> tables_;
+  bool moreTiles_ = false;
   std::atomic<double> mostPixels_ = 1e9;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -478,15 +480,14 @@ class Server::Http : public httplib::Server {
   void download(httplib::Response& response, bool exr) {
     // Only one download runs at a time, because each holds a thread and a frame.
     const std::unique_lock lock(downloading_, std::try_to_lock);
-    const std::string bytes = lock ? session_.download(exr) : std::string();
+    const auto [scene, bytes] = lock ? session_.download(exr) : Download();
     response.status = bytes.empty() ? 503 : 200;
     if (bytes.empty()) return response.set_content("busy; try again\n", "text/plain");
 
     // The file is named after the scene. Only letters and digits pass, so that nothing breaks the
     // header or the path.
     std::string name;
-    for (const char c : session_.name())
-      name += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    for (const char c : scene) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
 
     const char* const extension = exr ? ".exr" : ".png";
     response.set_header("Content-Disposition", "attachment; filename=\"" + name + extension + "\"");

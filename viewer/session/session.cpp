@@ -82,6 +82,12 @@ std::string aboutText(const TracedFrame& frame) {
                    machine.threads == 1 ? "" : "s");
 }
 
+std::vector<std::string> shippedNames() {
+  std::vector<std::string> names;
+  for (const auto& file : shippedScenes()) names.push_back(file.stem().string());
+  return names;
+}
+
 bool Timeline::step(double later) {
   if (!there || !playing) return false;
   seconds += later;
@@ -878,6 +884,13 @@ void Session::pick(double x, double y) {
 
 void Session::lookFromAside() {
   if (state_.rays.scene) jump(state_.rays.aside);
+}
+
+void Session::openShipped(const std::string& name) {
+  if (!state_.sceneName.empty()) throwUsage("a scene is open already");
+  const std::vector<std::string> names = shippedNames();
+  if (std::ranges::find(names, name) == names.end()) throwUsage("no shipped scene has this name");
+  open(name);
 }
 
 void Session::open(const std::string& name) {

@@ -67,6 +67,9 @@ struct Timeline {
   std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
 };
 
+// Returns the names of the shipped scenes, which are chosen from where no scene is named.
+std::vector<std::string> shippedNames();
+
 // Returns the timeline of a scene that was just read: at the instant's seconds if it has any,
 // otherwise playing from 0.
 Timeline timelineOf(const Scene& scene, const Instant& instant);
@@ -165,6 +168,9 @@ class Session {
   // Returns the command that makes the view shown; of one that is not sharp yet, as it will be.
   std::string command() const;
 
+  // Opens a shipped scene where none is open yet; the only file that those may read who have the
+  // page alone.
+  void openShipped(const std::string& name);
   // These are for users who may read and write files here.
   void open(const std::string& name);
   // Adds settings; `edited` is the scene with them.

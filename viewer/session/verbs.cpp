@@ -106,6 +106,7 @@ std::span<const Verb> Session::verbs() {
        [](S s, M) { s.close(); }},
 
       // These have controls instead of keys.
+      {"scene", "", "", [](S s, M m) { s.openShipped(m.text); }, {}, false, true},
       {"time", "", "", [](S s, M m) { s.setTime(m.numbers[0]); }, {1, 0, 1e9}},
       {"animation", "", "", [](S s, M m) { s.chooseAnimation(m.text); }, {}, false, true},
       {"view", "", "", [](S s, M m) { s.chooseView(m.text); }, {}, false, true},
