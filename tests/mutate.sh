@@ -327,11 +327,11 @@ mutations() {
   plant frames-backwards src/output/image_output.cpp \
     'if (!good || range.last < range.first) {' 'if (!good) {'
   plant tolerance-below-zero src/cli/compare.cpp \
-    'list.value({"tolerance", "X", 0},' 'list.value({"tolerance", "X"},'
+    '{"tolerance", "X", 0},' '{"tolerance", "X"},'
   plant hang-up-not-handled src/command_line/program.cpp \
     '{SIGINT, SIGTERM, SIGHUP}' '{SIGINT, SIGTERM}'
   plant file-size-limit-kills src/command_line/program.cpp '  signal(SIGXFSZ, SIG_IGN);' ''
-  plant overwrites-a-texture src/cli/render.cpp \
+  plant overwrites-a-texture src/cli/render_job.cpp \
     'std::filesystem::exists(file) && !isOurPicture(file)' 'false'
 
   testedBy serve_test 'PictureStream.*:Serving.*'
