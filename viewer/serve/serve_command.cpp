@@ -84,6 +84,14 @@ int serve(const ServeJob& job) {
 }
 #endif
 
+// Throws if options are of a scene and there is none: the page would open another without them.
+void checkScene(const ServeJob& job) {
+  const cli::CommonOptions& common = job.view.common;
+  const bool areOfScene = common.load.instant.seconds || !common.load.settings.empty() ||
+                          common.given.contains("camera");
+  refuseIf(job.scenes.empty() && areOfScene, "--camera, --set and --time: expected SCENE");
+}
+
 }  // namespace
 
 int serveCommand(const std::vector<std::string>& words);
@@ -91,6 +99,7 @@ int serveCommand(const std::vector<std::string>& words);
 int serveCommand(const std::vector<std::string>& words) {
   ServeJob job;
   if (!cli::parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
+  checkScene(job);
   view::settleViewOptions(job.view);
   if (!job.scenes.empty()) job.view.scene = job.scenes[0];
   return serve(job);
