@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "command_line/help_text.h"
+#include "core/error.h"
 #include "viewer/app.h"
 #include "viewer/start_screen.h"
 
@@ -107,8 +108,8 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   // The thread that reads a scene looks only now and then whether it was given up, which may take
   // it many seconds. Nothing that it holds has to be saved.
   if (app->waitsForReader()) {
-    std::fflush(stdout);
-    std::quick_exit(0);
+    const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    std::quick_exit(lost ? static_cast<int>(ExitStatus::io) : 0);
   }
   return 0;
 }

@@ -6,7 +6,7 @@
 #
 # Stopped, killed or failed: the same line again goes on where it was. Images that are there and
 # whole are not traced again (whit render --resume), and whit never leaves half a file under an
-# image's name. `image` keeps its bands in OUT.exr.parts until they are merged.
+# image's name. One run at a time writes into a folder. `image` keeps its bands in OUT.exr.parts until they are merged.
 #
 # In the environment:
 #   WHIT     the program (default: build/whit of this checkout, else whit)
@@ -115,7 +115,7 @@ case $what in
     done
     job=("${render[@]}" "$scene" -o "$parts/{}.exr" --size "$range" --crop '{}' --resume --quiet "$@")
     each "${#items[@]}" "${items[@]}"
-    "$whit" merge "$out" "${files[@]}" --quiet
+    "$whit" merge "$out" "${files[@]}" --quiet || exit 1
     rm -rf "$parts"
     ;;
   *) usage ;;

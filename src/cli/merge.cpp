@@ -22,8 +22,8 @@ int mergeCommand(const Words& words) {
   if (!parseOptions(
           "whit merge OUT.exr PART.exr... [options]",
           "Merges crops of one image, with their channels, which all crops must have. The "
-          "crops must cover the image; where they overlap the later one counts. EXR crops must say "
-          "that they show one scene with the same options.",
+          "crops must cover the image; where they overlap the later one counts. EXR crops that "
+          "whit made must show one scene with the same options.",
           list, words)) {
     return 0;
   }

@@ -106,7 +106,7 @@ double given(const char* name) {
 
 // Bytes that Slurm gives its job on this machine.
 double memoryOfSlurm() {
-  // One of the two limits is there.
+  // At most one of the two limits is set.
   const double megabytes =
       given("SLURM_MEM_PER_NODE") + given("SLURM_MEM_PER_CPU") * given("SLURM_CPUS_ON_NODE");
   return megabytes > 0 ? megabytes * (1 << 20) : kNoLimit;

@@ -14,8 +14,8 @@ int usableThreads();
 int affinityThreads();
 
 // The limit of memory for a scene where the user sets none: what memoryLeft() finds for this
-// process, at most 16 * 10^9 bytes, and what Slurm gives its job, which no control group need
-// bound.
+// process, at most 16 * 10^9 bytes, and at most what Slurm gives the job; clusters may not enforce
+// that by control groups.
 std::uint64_t defaultMaxMemory();
 
 // The number of tasks on the machine, besides the calling thread, that want a processor right now;

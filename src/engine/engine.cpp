@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bake/edit_scene.h"
+#include "core/error.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
@@ -135,7 +136,11 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
     renderer_->shadingChanged();
   } catch (...) {
     renderer_.reset();
-    readAgain(opened_->source, loaded, progress);  // the scene as it was
+    try {
+      readAgain(opened_->source, loaded, progress);  // the scene as it was
+    } catch (...) {
+      throwLimit("out of memory during an edit: open the scene again");
+    }
     throw;
   }
 }

@@ -95,7 +95,8 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-      if (i->path().extension() == ".json") names.push_back(i->path().stem().string());
+      const bool isScene = i->path().extension() == ".json" && i->is_regular_file(error);
+      if (isScene) names.push_back(i->path().stem().string());
     }
   }
 

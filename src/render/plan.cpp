@@ -325,7 +325,8 @@ class Planner {
     // triangles 1.2 times as long). Sorting rays by origin and direction before they are packed
     // gains nothing on AVX2 and AVX-512 (glass, whitted, tiles of 32 to 256).
     constexpr std::size_t kFewSurfaces = 1000;
-    plan_.coherentDepth = scene_.triangles.size() <= kFewSurfaces ? 10 : 4;
+    const std::size_t surfaces = scene_.triangles.size() + scene_.instances.size();
+    plan_.coherentDepth = surfaces <= kFewSurfaces ? 10 : 4;
     if (samplesLobes(plan_.effects)) plan_.coherentDepth = 0;
   }
 

@@ -39,7 +39,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render nope", kUsage, kAllScenes},
     {"render witted", kUsage, "did you mean 'whitted'?"},
     {"render nope.glb", kIo, "cannot open nope.glb: no such file"},
-    {"serve --set /lights/0/intensity=4", kUsage, "--camera, --set and --time: expected SCENE"},
+    {"serve --set /lights/0/intensity=4", kUsage, "expected SCENE beside --animation"},
     {"render ?level=2", kUsage, "expected a scene file, a model or the name of a shipped scene"},
     {"render whitted -o a.png -o a.png", kUsage, "-o a.png: give each file once"},
     {"render whitted extra", kUsage, "one word too many: 'extra'"},

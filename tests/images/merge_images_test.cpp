@@ -138,6 +138,11 @@ TEST_F(MergeImages, RefusesPartsOfOtherPictures) {
   // Parts that say nothing, as other programs write them, are merged.
   const std::string bare = part("c.exr", {0, 3, 8, 6});
   EXPECT_EQ(statusOf([&] { merge({first, bare}); }), ExitStatus::done);
+
+  // Their place in the list does not hide that others differ.
+  const std::string other = part("d.exr", {0, 3, 8, 6}, 0, 8, {{"spp", "16"}});
+  EXPECT_EQ(statusOf([&] { merge({first, bare, other}); }), ExitStatus::usage);
+  EXPECT_EQ(statusOf([&] { merge({bare, first, other}); }), ExitStatus::usage);
 }
 
 }  // namespace

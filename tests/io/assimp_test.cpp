@@ -328,11 +328,20 @@ TEST_F(Assimp, FacesOfOffWithBadCornersAreCounted) {
   EXPECT_EQ(warned("vertex index out of range replaced by the last vertex"), 1u);
 }
 
+// STL files have normals beside corners, OFF files have not.
 TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
-  const std::string file = "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  const std::string error =
-      errorOf([&] { EXPECT_TRUE(trianglesOf(loadBytes("off", file)).empty()); });
-  EXPECT_TRUE(error == "no error" || hasText(error, "it has no faces")) << error;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::string stl = std::string(80, ' ') + bytesOf<std::uint32_t>({2});
+  for (int i = 0; i < 2; ++i) {
+    stl += bytesOf<float>({0, 0, 1, nan, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(2, '\0');
+  }
+
+  const std::string off = "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const auto& [kind, file] : {std::pair{"stl", stl}, std::pair{"off", off}}) {
+    const std::string error =
+        errorOf([&] { EXPECT_TRUE(trianglesOf(loadBytes(kind, file)).empty()) << kind; });
+    EXPECT_TRUE(error == "no error" || hasText(error, "it has no faces")) << kind << error;
+  }
 }
 
 TEST_F(Assimp, BadFilesEndWithAnError) {

@@ -43,7 +43,7 @@ TEST_F(GltfMaterials, VertexColors) {
 
 TEST_F(GltfMaterials, VertexColorsOfHalfAMetalAreCounted) {
   const std::string what =
-      "vertex colors of what is metal in part: they color its reflection as a whole or not at all";
+      "vertex colors of a partly metallic material: they multiply all of its reflection or none";
   const auto warnings = [&](const char* metallic) {
     const std::string metal = "{\"pbrMetallicRoughness\":{\"metallicFactor\":";
     loadText(sceneText({{0, metal + metallic + "}}", 1}}));

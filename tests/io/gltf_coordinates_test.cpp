@@ -197,7 +197,7 @@ TEST_F(GltfCoordinates, AThirdKindBetweenTexelsOfALargeImageIsCounted) {
                             transformed("\"scale\":[4,1],\"offset\":[0.1,0]") + "}"),
                   1}}));
 
-  EXPECT_EQ(warned("texture that a third transform shifts by parts of a texel blurred"), 1u);
+  EXPECT_EQ(warned("texture blurred: a third transform shifts it by a fraction of a texel"), 1u);
 }
 
 // Metal, in the blue channel, takes the diffuse color.

@@ -9,7 +9,7 @@ namespace whit {
 namespace {
 
 constexpr char kRoughly[] =
-    "sampler of a texture followed roughly: it is combined with its material's first";
+    "textures of one material have different samplers; that of the first is used for all";
 constexpr char kByTexel[] = "\"magFilter\":9728", kTiled[] = "\"wrapS\":10497",
                kClamped[] = "\"wrapS\":33071", kMirrored[] = "\"wrapS\":33648";
 
@@ -152,6 +152,24 @@ TEST_F(GltfSizes, AnEvenMetalnessChangesNoTexel) {
     expectColor(dielectric[i], plain[i]);
   }
   EXPECT_EQ(kinds(), "");
+}
+
+// The metalness, 0 in its only texel, says nothing of the size. By the factor alone the material
+// would be metal.
+TEST_F(GltfSizes, AColorOfTheReflectionKeepsItsTexels) {
+  save("metal.tga", tga(1, 1, gray(1)));
+  useTwo("metal.tga", kTiled, kTiled);
+  const std::string material =
+      "{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":1}},\"extensions\":{"
+      "\"KHR_materials_specular\":{\"specularColorTexture\":{\"index\":0}}}}";
+
+  const SceneDescription d = loadText(sceneText({{0, material, 1}}));
+
+  const Texture& made = d.textures.at(static_cast<std::size_t>(d.materials[0].specularMap));
+  ASSERT_EQ(made.texels.size(), 2u);
+  const Rgb all = d.materials[0].specular;
+  expectColor(all * decodeColorTexel(made.texels[0]), {0.04f, 0, 0});
+  expectColor(all * decodeColorTexel(made.texels[1]), {0, 0.04f, 0});
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ def stubs() -> str:
     kept = []
     for node in module.body:
         if isinstance(node, ast.ImportFrom) and node.module == "typing":
-            kept.append(ast.parse("from typing import Any, Callable, Literal, Mapping, Optional, "
-                                  "Sequence, Union").body[0])
+            kept.append(ast.parse("from typing import Any, Callable, Iterator, KeysView, Literal, "
+                                  "Mapping, Optional, Sequence, Union").body[0])
         elif isinstance(node, ast.ImportFrom) and node.level == 1:
             if node.module in ("_arrays", "_camera", "_error", "_rays"):
                 name = node.names[0].name

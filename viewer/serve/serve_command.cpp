@@ -87,9 +87,13 @@ int serve(const ServeJob& job) {
 // Throws if options are of a scene and there is none: the page would open another without them.
 void checkScene(const ServeJob& job) {
   const cli::CommonOptions& common = job.view.common;
-  const bool areOfScene = common.load.instant.seconds || !common.load.settings.empty() ||
-                          common.given.contains("camera");
-  refuseIf(job.scenes.empty() && areOfScene, "--camera, --set and --time: expected SCENE");
+  const Instant& instant = common.load.instant;
+  const bool areOfView =
+      common.given.contains("camera") || common.ground || common.azimuth || common.zoom;
+  const bool areOfTime = instant.seconds || !instant.animation.empty();
+  refuseIf(job.scenes.empty() && (areOfView || areOfTime || !common.load.settings.empty()),
+           "expected SCENE beside --animation, --azimuth, --camera, --ground, --set, --time and "
+           "--zoom");
 }
 
 }  // namespace
@@ -101,6 +105,7 @@ int serveCommand(const std::vector<std::string>& words) {
   if (!cli::parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
   checkScene(job);
   view::settleViewOptions(job.view);
+  job.view.choosesScene = job.scenes.empty();
   if (!job.scenes.empty()) job.view.scene = job.scenes[0];
   return serve(job);
 }

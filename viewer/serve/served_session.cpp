@@ -238,8 +238,10 @@ void ServedSession::publish() {
   // The shot always holds the picture and the values that change with every picture.
   told_ = session_.notice();
   auto shot = std::make_shared<Shot>();
-  if (std::exchange(tabled_, state.scene) != state.scene) {
+  const std::shared_ptr<const OpenScene> tabled = std::exchange(tabled_, state.scene);
+  if (tabled != state.scene) {
     tables_ = std::make_shared<const std::string>(textOf(tablesJson()));
+    if (tabled) fitUpright();  // the page tells its size once
   }
   shot->tables = tables_;
   shot->picture = state.unfinished ? state.unfinished->display : state.shown.film.display;
@@ -272,7 +274,7 @@ Json ServedSession::tablesJson() const {
             {"views", kDebugViewNames},
             {"path", !scene.cameraPath.empty() && !state.timeline.there}};
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
-  if (state.sceneName.empty()) json["scenes"] = view::shippedNames();
+  if (session_.choosesScene()) json["scenes"] = view::shippedNames();
 
   for (const view::Control& control : view::controlsOf(state.options)) {
     json["options"].push_back(describe(control));

@@ -887,7 +887,7 @@ void Session::lookFromAside() {
 }
 
 void Session::openShipped(const std::string& name) {
-  if (!state_.sceneName.empty()) throwUsage("a scene is open already");
+  if (!choosesScene()) throwUsage("a scene is open already");
   const std::vector<std::string> names = shippedNames();
   if (std::ranges::find(names, name) == names.end()) throwUsage("no shipped scene has this name");
   open(name);

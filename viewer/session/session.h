@@ -26,7 +26,8 @@ namespace whit::view {
 // The options that the command lines of both faces have in common.
 struct ViewOptions {
   cli::CommonOptions common;
-  std::string scene;  // as on the command line
+  std::string scene;          // as on the command line
+  bool choosesScene = false;  // there is none, and a shipped one may be opened
   DebugView view = DebugView::none;
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
@@ -168,8 +169,9 @@ class Session {
   // Returns the command that makes the view shown; of one that is not sharp yet, as it will be.
   std::string command() const;
 
-  // Opens a shipped scene where none is open yet; the only file that those may read who have the
-  // page alone.
+  // True until a scene is open, in a session that began without one.
+  bool choosesScene() const { return options_.choosesScene && state_.sceneName.empty(); }
+  // Opens a shipped scene if none is open. This is the only file that users of the page can read.
   void openShipped(const std::string& name);
   // These are for users who may read and write files here.
   void open(const std::string& name);

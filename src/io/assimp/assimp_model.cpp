@@ -94,6 +94,7 @@ std::uint32_t leaveOutBadFaces(aiMesh& mesh) {
   aiFace* const end = mesh.mFaces + mesh.mNumFaces;
   const auto left = static_cast<std::uint32_t>(end - std::remove_if(mesh.mFaces, end, isBad));
   mesh.mNumFaces -= left;
+  if (mesh.mNumFaces == 0) mesh.mNumVertices = 0;  // or they would be taken for triangles in order
   return left;
 }
 

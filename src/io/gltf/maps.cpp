@@ -82,11 +82,10 @@ struct Between {
   float weight;
 };
 
-// Places in texels that differ by no more than this are one, which rounding moved.
+// Positions, in texels, that differ by at most this are equal: rounding has moved one of them.
 constexpr double kTexelRounding = 1e-3;
 
-// Returns what each of `count` texels shows that together show a row of texels `times` times from
-// `begin` on.
+// Resamples a row of texels: `count` texels show it `times` times, from `begin` on.
 std::vector<Between> resample(int texels, double count, double times, double begin, Wrap wrap,
                               bool nearest) {
   const auto wrapped = [=](double texel) {
@@ -246,7 +245,7 @@ struct BakedImages {
 
 BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warnings& warnings) {
   BakedImages baked;
-  const bool f0 = m.variesF0();
+  const bool f0 = m.bakesSpecular() && maxComponent(m.f0(Rgb(1.0f), 1)) > 0;
   const auto& metals = images[kMetallicRoughness];
   const bool mixes = m.metallic > 0 && metals && meanOf(*metals, 2).varies;
   const bool counts[] = {true, mixes, f0, f0, m.variesTransmission()};
@@ -273,7 +272,7 @@ BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warning
     const int beyond = baked.width % raw->width + baked.height % raw->height;
     if (!isSame || (own.nearest && beyond > 0)) {
       warnings.add(
-          "sampler of a texture followed roughly: it is combined with its material's first",
+          "textures of one material have different samplers; that of the first is used for all",
           m.where);
     }
   }
@@ -392,6 +391,7 @@ std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawI
 
 RawImage inLinearLight(const RawImage& raw, const ImageLimits& limits) {
   RawImage all = startImage("a repeated texture", raw.width, raw.height, 3, true, limits);
+  all.values.reserve(3 * raw.pixels());
   for (const auto i : indices(raw.pixels())) {
     const Rgb color = linearPixel(raw, i);
     all.values.insert(all.values.end(), {color.x, color.y, color.z});
@@ -413,7 +413,7 @@ RepeatedRow repeatedRow(int texels, double times, double begin, bool nearest) {
   const double count = std::clamp(std::round(std::abs(times) * texels), 1.0, most);
 
   const double start = begin * texels;
-  const bool isBetween = std::abs(start - std::round(start)) > kTexelRounding;
+  const bool isBetween = texels > 1 && std::abs(start - std::round(start)) > kTexelRounding;
   const double finer = isBetween ? std::max(std::floor(kFinest / count), 1.0) : 1;
   return {resample(texels, finer * count, times, begin, Wrap::repeat, nearest), isBetween,
           isBetween && finer < kSharp};
@@ -425,6 +425,9 @@ RawImage repeated(const RawImage& raw, const RepeatedRow& columns, const Repeate
                             raw.channels, raw.linear, limits);
 
   const auto channels = static_cast<std::size_t>(raw.channels);
+  const std::size_t values = all.pixels() * channels;
+  all.values.reserve(raw.linear ? values : 0);
+  all.codes.reserve(raw.linear ? 0 : values);
   for (const Between& row : rows.shown) {
     for (const Between& column : columns.shown) {
       for (std::size_t c = 0; c < channels; ++c) {
@@ -463,7 +466,7 @@ struct MapRequest {
     const auto columns = repeatedRow(raw->width, repeats.u, repeats.u0, map.nearest);
     const auto rows = repeatedRow(raw->height, repeats.v, repeats.v0, map.nearest);
     if (columns.isCoarse || rows.isCoarse) {
-      warnings.add("texture that a third transform shifts by parts of a texel blurred",
+      warnings.add("texture blurred: a third transform shifts it by a fraction of a texel",
                    material.where);
     }
 

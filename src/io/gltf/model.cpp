@@ -221,8 +221,7 @@ class PrimitiveReader {
     const auto isWhite = [](const Rgb& color) { return color == Rgb(1.0f); };
     if (!isInPart || std::ranges::all_of(mesh.colors, isWhite)) return;
     warn(
-        "vertex colors of what is metal in part: they color its reflection as a whole or not at "
-        "all");
+        "vertex colors of a partly metallic material: they multiply all of its reflection or none");
   }
 
   // Empty where the primitive does not have this set.

@@ -273,11 +273,15 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   MergedImage merged;
   Image& image = merged.image;
   std::vector<bool> covered;
-  std::string firstExr;
+  bool hasExr = false;
+  std::string firstPath;  // the first part that says what it shows, and what it says
+  ImageMetadata first;
 
   for (const std::string& path : paths) {
     const Image part = readImage(path, limits);
-    const std::vector<ImageLayer> layers = readLayers(path, limits);
+    const bool isExr = extensionOf(path) == ".exr";
+    const std::vector<ImageLayer> layers =
+        isExr ? readLayers(path, limits) : std::vector<ImageLayer>();
 
     // The first part determines the size of the image and its layers.
     if (covered.empty()) {
@@ -295,13 +299,14 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
     addPart(path, part, layers, merged, covered, warnings);
 
     // Only metadata on which all EXR parts agree are kept.
-    if (extensionOf(path) != ".exr") continue;
+    if (!isExr) continue;
     const ImageMetadata own = readExrMetadata(path);
-    if (firstExr.empty()) {
-      firstExr = path;
-      merged.metadata = own;
+    if (!std::exchange(hasExr, true)) merged.metadata = own;
+    if (first.empty()) {
+      firstPath = path;
+      first = own;
     }
-    requireSamePicture(path, own, firstExr, merged.metadata);
+    requireSamePicture(path, own, firstPath, first);
     std::erase_if(merged.metadata, [&](const auto& entry) {
       return entry.first == "crop" || !contains(own, entry);
     });

@@ -3,7 +3,7 @@ import json
 import os
 import warnings
 import weakref
-from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, KeysView, Literal, Mapping, Optional, Sequence, Union
 import numpy as np
 from ._arrays import Mesh as Mesh
 from ._camera import Camera as Camera
