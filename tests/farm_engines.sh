@@ -142,9 +142,10 @@ for cpus in 1 2; do
   rm threads/*
 done
 
-# Slurm looks once a second at how much memory a task has.
+# Slurm looks once a second at how much memory a task has. By itself whit would take no more than it is
+# given, and refuse the picture.
 job=$(submit --cpus-per-task=1 --mem=100 --array=0 "$root/scenes/farm/slurm.sbatch" whitted "large/####.png" 0..0 \
-  --size 6000x4000)
+  --size 6000x4000 --max-memory 4)
 ended "$job" '\(FAILED\|CANCELLED\|OUT_OF_MEMORY\)'
 grep -i -m 1 "exceeded .*memory limit" "whit-${job}_0.log"
 test ! -e large/0000.png

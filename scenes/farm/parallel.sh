@@ -75,7 +75,8 @@ each() {
     echo "$0: $failed of $# jobs failed; again to go on" >&2
   fi
   echo "$images images: $kept kept, $traced traced, $((images - kept - traced)) failed" >&2
-  [ "$status" = 0 ] || exit 1
+  # A machine that does not run the job may still say that all is well.
+  [ "$status" = 0 ] && [ $((kept + traced)) = "$images" ] || exit 1
 }
 
 # Where what the killed have left lies: temporary files of whit, which nobody uses any more.

@@ -242,7 +242,9 @@ MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMa
     if (masks.alphaMap != kNoTexture || masks.coverageMap != kNoTexture) masks.texture = kNoTexture;
     groups[{masks, full.width, full.height}].push_back(&entry);
   }
+
   std::vector<const std::vector<Entry*>*> tasks;
+  tasks.reserve(groups.size());
   for (const auto& [masks, entries] : groups) tasks.push_back(&entries);
 
   // Threads beyond the number of tasks help with their levels.

@@ -109,13 +109,20 @@ printf '#!/bin/sh\necho 12\n' >"$recorder/nproc"
 printf '#!/bin/sh\necho "$@" >>"%s"\nexec "%s" "$@"\n' "$work/words" "$whit" >"$recorder/whit"
 chmod +x "$recorder/nproc"
 mkdir remote
-printf '#!/bin/sh\nwhile [ "$1" != there ]; do shift; done\nshift\n[ "$1" != -- ] || shift\nPATH=%s:$PATH exec sh -c "$*"\n' \
+printf '#!/bin/sh\nwhile [ "$1" != there ]; do shift; done\nshift\n[ "$1" != -- ] || shift\nSHELL=/bin/sh PATH=%s:$PATH exec sh -c "$*"\n' \
   "$recorder" >"$work/login"
 chmod +x "$work/login"
 WHIT=$recorder/whit JOBS=4 LOGINS="$work/login there" "$farm/parallel.sh" frames whitted "$work/remote/####.exr" 0..1 \
   --size 32x20 2>log || { cat log; exit 1; }
 grep -q -- "--threads 3 " words
 test "$(ls -A remote | wc -l)" = 2
+
+# A machine that does nothing and says that all is well is a failure.
+printf '#!/bin/sh\nexit 0\n' >"$work/login"
+status=0
+WHIT=$whit LOGINS="$work/login there" "$farm/parallel.sh" frames whitted "$work/remote/2-####.exr" 0..1 2>log || status=$?
+test $status = 1
+tail -1 log | grep -qE "^2 images: 0 kept, 0 traced, 2 failed$"
 
 # A run that is killed leaves nothing that the next one does not sweep away.
 : >farmed/.whit-killed.tmp

@@ -47,7 +47,7 @@ class ServedSession {
     void ring();
     void wait(double seconds);
   };
-  // If options.scene is empty, pages choose among the shipped scenes, and `scene` is noScene().
+  // With options.choosesScene pages choose among the shipped scenes, and `scene` is noScene().
   ServedSession(const view::ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                 std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
   ~ServedSession();
