@@ -183,7 +183,7 @@ for address in 127.0.0.1 192.0.2.1; do echo "[$address]:2222 $(cat host.key.pub)
 # Writes down its machine and port, its process, its frames and their threads, and is whit.
 cat >recorder <<END_OF_FILE
 #!/bin/sh
-echo "\${SSH_CONNECTION#* * } \$\$ \$6 \$8" >>"$work/jobs"
+echo "\${SSH_CONNECTION#* * } \$\$ \$8 \$3" >>"$work/jobs"
 exec "$whit" "\$@"
 END_OF_FILE
 chmod +x recorder
