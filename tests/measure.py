@@ -3,14 +3,16 @@
 
   tests/measure.py                 all, on a machine at rest: some twenty minutes on two cores
   tests/measure.py --speed         speed: tests/bench/README.md and the table in README.md (8 min)
+  tests/measure.py --avx2          speed on AVX2: its table in tests/bench/README.md (2 min)
   tests/measure.py --accuracy      accuracy: src/accuracy/README.md and the table in README.md (6 min)
   tests/measure.py --transport     against all transport: src/accuracy/README.md and its charts (7 min)
   tests/measure.py --tables-only   only the tables, from what was measured before
   tests/measure.py --hashes        image hashes: tests/verify/image_hashes.cpp
 
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
-comments of its name; the text around them is written by hand. All figures of a page, and those against
-all transport, are of one commit and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
+comments of its name; the text around them is written by hand. All figures of a page are of one commit and one
+machine, but for those on AVX2 and those against all transport, which say their own: where they are not,
+nothing is written and the exit status is 1. sponza-mirror needs
 its model ($WHIT_DATA); without it its figures are left out, loudly.
 """
 import argparse
@@ -126,6 +128,12 @@ def measure_speed():
                   {"cutoff": cutoff}) for cutoff in CUTOFFS]))
     measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
+
+
+def measure_avx2():
+    for size in SIZES:
+        keep(f"frames-avx2-{size}.json",
+             bench(*here(FRAME_SCENES), "--size", size, *FRAME, "--simd", "avx2"))
 
 
 def measure_accuracy():
@@ -379,6 +387,12 @@ def sizes_table(frames, scenes):
     return table(["", "ms a frame", "frames a second", "frame over floor", "Mray/s"], rows)
 
 
+def avx2_table(frames):
+    """Kernels of AVX2 and packets of 8, on a machine that the page may have measured nothing else on."""
+    return (machine_line(frames[0][1], f"frames-avx2-{SIZES[0]}.json") + "\n\n" +
+            sizes_table(frames, FRAME_SCENES))
+
+
 def home_speed(frames):
     """README.md: one scene at two sizes."""
     first = frames[0][1]["runs"][0]
@@ -455,6 +469,14 @@ def write_speed():
     put("README.md", {"speed": home_speed(frames)})
 
 
+def write_avx2():
+    frames = [(size, read(f"frames-avx2-{size}.json")) for size in SIZES]
+    if not all(data for _, data in frames):
+        return complain(f"{OUT} has no frames on AVX2: their table stays as it is")
+    require_one_machine([(f"frames-avx2-{size}.json", data["machine"]) for size, data in frames])
+    put(SPEED_PAGE, {"avx2": avx2_table(frames)})
+
+
 def put_charts(folder, pictures):
     """Charts of a report, by their names, as files: Chromium draws them. Their links are left out."""
     browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -524,6 +546,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--speed", action="store_true")
+    parser.add_argument("--avx2", action="store_true")
     parser.add_argument("--accuracy", action="store_true")
     parser.add_argument("--transport", action="store_true")
     parser.add_argument("--tables-only", action="store_true")
@@ -531,7 +554,7 @@ def main():
     job = parser.parse_args()
     if job.hashes:
         return write_hashes()
-    every = not job.speed and not job.accuracy and not job.transport
+    every = not (job.speed or job.avx2 or job.accuracy or job.transport)
     if not job.tables_only:
         if not (BUILD / "whit").exists():
             sys.exit("tests/measure.py: there is no build/whit; scenes/demo.sh makes it")
@@ -540,12 +563,16 @@ def main():
         OUT.mkdir(parents=True, exist_ok=True)
         if job.speed or every:
             measure_speed()
+        if job.avx2 or every:
+            measure_avx2()
         if job.accuracy or every:
             measure_accuracy()
         if job.transport or every:
             measure_transport()
     if job.speed or every:
         write_speed()
+    if job.avx2 or every:
+        write_avx2()
     if job.accuracy or every:
         write_accuracy()
     if job.transport or every:
