@@ -105,7 +105,12 @@ std::string Renderer::get(const std::string& name) const {
   return guarded([&] { return optionText(data_->engine.requestedOptions(), name); });
 }
 
-const Scene& Renderer::scene() const { return data_->scene; }
+const Scene& Renderer::scene() const {
+  return guarded([&]() -> const Scene& {
+    data_->engine.update();
+    return data_->scene;
+  });
+}
 
 Renderer& Renderer::reset() {
   data_->options = {};

@@ -370,8 +370,8 @@ class Renderer {
   Renderer& operator=(Renderer&& other) noexcept;
   ~Renderer();
 
-  // The current scene. A renderer never changes a scene that others hold: it copies it first, and
-  // builds a new acceleration structure.
+  // The current scene, at the time and with the transforms that were set. A renderer never changes
+  // a scene that others hold: it copies it first, and builds a new acceleration structure.
   const Scene& scene() const;
 
   // Sets an option of `whit render` for the following frames: set("depth", "8"). It wins over the

@@ -120,6 +120,7 @@ class Planner {
     plan_.effects =
         consistent(scene, called.without(options.disable).without(optionalEffectsOff(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
+    plan_.sampled = plan_.features.has(Feature::streams);
     plan_.channels = keptChannels(options);
   }
 
@@ -298,7 +299,7 @@ class Planner {
     }
     if (options_.maxRays > 0 && mostImpulses() > options_.maxRays) {
       plan_.limitsRays = true;
-      plan_.features = plan_.features.with(Feature::streams);
+      plan_.features = plan_.features.with(Feature::streams);  // paths are told apart by them
       amend(plan_.impulses, "limitRays", simd::kReturnImpulses, limitRays, {rays, children},
             {children});
     }

@@ -55,6 +55,7 @@ struct LightSteps {
 struct Plan {
   EffectSet effects;        // effects that scene and options have
   FeatureSet features;      // what whole calls ask for
+  bool sampled = false;     // rays are sampled: more samples of a pixel take noise away
   int depth = 0;            // deepest impulse that can occur
   bool limitsRays = false;  // a sample may have more impulses than --max-rays
   int coherentDepth = 0;    // deepest queue whose rays travel close together

@@ -121,6 +121,27 @@ class Cameras(unittest.TestCase):
         with self.assertRaisesRegex(whit.Error, "'c'"):
             scene.camera("c")
 
+    def test_pictures_narrower_than_the_aspect_keep_the_width(self):
+        camera = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "fov": 40, "aspect": 1.6}, (50, 40))
+        across = 1.6 * np.tan(np.radians(20))  # half the width at distance 1
+        assert_allclose(camera.k[0, 0], 25 / across)
+        self.assertAlmostEqual(camera.fov, 2 * np.degrees(np.arctan(across * 40 / 50)))
+        picture = wall().render(camera=camera, channels=["depth", "position"])
+        assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"], atol=2e-5)
+
+    def test_a_moving_camera_is_told_where_it_is(self):
+        camera = {"eye": [0, 0, 5], "at": [0, 0, 0], "motion": {
+            "keys": [{"time": 0}, {"time": 1, "translate": [1, 2, 0]}]}}
+        scene = whit.Scene({"cameras": {"a": camera}, "scene": []})
+        for time in (0.25, 1, 0.5, 0):
+            scene.set_time(time)
+            assert_allclose(scene.camera().pose[:3, 3], [time, 2 * time, 5], atol=1e-6)
+
+    def test_stereo_pairs_have_no_matrix(self):
+        pair = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "stereo": "leftRight"}, (80, 40))
+        with self.assertRaisesRegex(whit.Error, "one eye.*leftRight"):
+            pair.project([0, 0, 0])
+
     def test_a_camera_holds_for_one_picture(self):
         scene = scene_of()
         before = scene.render(size=SIZE).rgb
@@ -134,6 +155,7 @@ class Cameras(unittest.TestCase):
         for k, place, axes, what in ((np.eye(2), pose(), "opencv", "K"),
                                      (np.ones((3, 3)), pose(), "opencv", "K"),
                                      (K + [[0, 0, 0], [1, 0, 0], [0, 0, 0]], pose(), "opencv", "K"),
+                                     (K * [[-1], [1], [1]], pose(), "opencv", "K"),
                                      (K, 2 * np.eye(3, 4), "opencv", "pose"),
                                      (K, np.diag([1, 1, -1, 1]), "opencv", "pose"),
                                      (K, pose(), "opencl", "axes")):

@@ -63,6 +63,21 @@ TEST_F(Accumulating, EndsWithThePictureOfSoManySamplesBitForBit) {
   EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
 }
 
+// Scenes of mirrors and glass bound their rays (--max-rays), which numbers the paths of a sample as
+// sampling does. Nothing in them is sampled, so that the viewer must not refine them without end.
+TEST_F(Accumulating, BoundedRaysAreNotSampled) {
+  request_.options.glossy = 0;
+  request_.spp = 1;
+  for (const char* name : {"whitted", "glass"}) {
+    const std::shared_ptr<OpenScene> scene = openAndWarn(name, common_, nullptr);
+    request_.camera = scene->scene.cameras[0];
+    FrameTracer tracer(scene, common_);
+    TracedFrame frame;
+    ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+    EXPECT_FALSE(frame.sampled) << name;
+  }
+}
+
 // The time of a sample is not known yet, so that each pass has one.
 TEST_F(Accumulating, SightsHaveMoreSamplesAndLessError) {
   FrameTracer tracer(scene_, common_);

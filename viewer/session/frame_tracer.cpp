@@ -139,7 +139,7 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
 
   frame.surfaces = surfacesText(scene.instancedTriangles, scene.instancedSpheres);
   frame.effects = renderer.plan().effects;
-  frame.sampled = renderer.plan().features.has(Feature::streams);
+  frame.sampled = renderer.plan().sampled;
   frame.reasons = scene.reasons;
   frame.dark = noLightWarning(scene);
   frame.machine = renderer.machine();
@@ -225,7 +225,7 @@ void FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
 bool FrameTracer::accumulates(const FrameRequest& request) const {
   const RenderOptions& options = engine_->options();
   return request.interruptible && request.view == DebugView::none && options.spp > 1 &&
-         !options.adaptive && engine_->renderer().plan().features.has(Feature::streams);
+         !options.adaptive && engine_->renderer().plan().sampled;
 }
 
 // A finished picture of the same view stays until the new one has more samples; only then are the

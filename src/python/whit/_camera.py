@@ -46,6 +46,8 @@ class Camera:
         if k.shape != (3, 3) or k[1, 0] != 0 or not np.array_equal(k[2], (0, 0, 1)):
             _fail("K", "[[fx, skew, cx], [0, fy, cy], [0, 0, 1]]", str(k.tolist()))
         place = np.reshape(_arrays.matrix(pose, "pose"), (3, 4))
+        if not (k[0, 0] > 0 and k[1, 1] > 0):
+            _fail("K", "focal lengths above 0", str(k.tolist()))
         camera = cls({}, size, axes=axes)
         turn = place[:, :3] * _AXES[axes]
         if not (np.allclose(turn.T @ turn, np.eye(3), atol=1e-5) and np.linalg.det(turn) > 0):
@@ -79,6 +81,8 @@ class Camera:
         projection = self.members.get("projection", "perspective")
         if projection != "perspective" or self.members.get("orthographicHeight", 0) > 0:
             _fail("k", "a perspective camera", "another projection")
+        if self.members.get("stereo", "none") != "none":
+            _fail("k", "the camera of one eye", f"a stereo pair, {self.members['stereo']}")
         width, height = self.size
         k = np.eye(3)
         if self.members.get("k"):
@@ -87,7 +91,10 @@ class Camera:
             k[0] = fx * x, skew * x, (cx + 0.5) * x - 0.5
             k[1, 1:] = fy * y, (cy + 0.5) * y - 0.5
         else:
-            k[0, 0] = k[1, 1] = height / 2 / np.tan(np.radians(self.members.get("fov", 45)) / 2)
+            # Pictures that are narrower than `aspect` keep the width, and show more above and below.
+            slope = np.tan(np.radians(self.members.get("fov", 45)) / 2)
+            slope *= max(1.0, self.members.get("aspect", 0) * height / width)
+            k[0, 0] = k[1, 1] = height / 2 / slope
             k[:2, 2] = (width - 1) / 2, (height - 1) / 2
         return k
 
