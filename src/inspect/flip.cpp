@@ -40,7 +40,7 @@ void addScaled(float* sum, const float* values, float weight, int count) {
 Plane filterAlongX(const Plane& plane, const Taps& taps) {
   const int radius = static_cast<int>(taps.size() / 2);
   Plane out(plane.width, plane.height);
-  std::vector<float> padded(static_cast<std::size_t>(plane.width) + 2 * taps.size());
+  std::vector<float> padded(plane.width + 2 * taps.size());
 
   for (int y = 0; y < plane.height; ++y) {
     const float* row = plane.row(y);

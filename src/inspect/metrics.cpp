@@ -93,9 +93,9 @@ void checkComparable(const Image& a, const Image& b) {
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
   std::vector<std::uint8_t> differences(a.rgba.size() / 4);
 
-  for (std::size_t i = 0; i < differences.size(); ++i) {
+  for (const auto i : indices(differences)) {
     int largest = 0;
-    for (std::size_t c = 0; c < 3; ++c)
+    for (const auto c : indices(3))
       largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
     differences[i] = static_cast<std::uint8_t>(largest);
   }

@@ -326,7 +326,7 @@ std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
 
   const std::optional<std::uint64_t> number = whole();
   if (!number || *number >= size) fail(concat(expected, ", from 0 to ", size - 1));
-  return static_cast<std::size_t>(*number);
+  return *number;
 }
 
 JsonObject::JsonObject(const JsonValue& value) : value_(value) {

@@ -95,7 +95,7 @@ RayHits columnsFor(std::size_t count) {
 
 template <typename T>
 void put(std::span<T> column, std::size_t i, const Vec3d& v) {
-  for (int k = 0; k < 3; ++k) column[3 * i + static_cast<std::size_t>(k)] = static_cast<T>(v[k]);
+  for (int k = 0; k < 3; ++k) column[3 * i + k] = static_cast<T>(v[k]);
 }
 
 // Point and normals of a hit, and its numbers.

@@ -300,7 +300,7 @@ Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {
 }  // namespace
 
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling) {
-  return widthOfFacets(surfel) > 0 ? static_cast<int>(sampling.count) : 1;
+  return widthOfFacets(surfel) > 0 ? sampling.count : 1;
 }
 
 Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,

@@ -25,7 +25,7 @@ RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, cons
   std::vector<RayCounts> counts(std::max(1, threads));
   const int rows = window.y1 - window.y0;
   std::atomic<int> rowsDone{0};
-  parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
+  parallelFor(threads, rows, [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
     RayCounts& own = counts[worker];
     for (int x = window.x0; x < window.x1; ++x) {

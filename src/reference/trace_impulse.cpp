@@ -205,7 +205,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   const bool isChosen = choice.all || choice.next == choice.chosen;
   ++choice.next;
   if (!isChosen) return {};
-  const auto most = static_cast<std::uint64_t>(options_.maxRays);
+  const std::uint64_t most = options_.maxRays;
   if (path.tree && ++path.tree->followed > most && !path.tree->narrows) return {};
 
   ++counts[kind];
@@ -228,8 +228,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
 // The mean over directions of what nothing nearby holds off.
 RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts,
                                  Path path) const {
-  const LobeSampling points =
-      lightSampling(depth, static_cast<std::uint32_t>(options_.ambientSamples), path.sample);
+  const LobeSampling points = lightSampling(depth, options_.ambientSamples, path.sample);
   RgbD sum;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const LightArrival arrival = ambientArrival(scene_, effects_, surfel, options_.shading,
@@ -249,8 +248,7 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughp
   for (std::uint32_t number = 0; number < scene_.lights.size(); ++number) {
     const Light& light = scene_.lights[number];
     const bool soft = effects_.has(Effect::softShadows) && hasExtent(light);
-    const LobeSampling points = lightSampling(
-        depth, static_cast<std::uint32_t>(soft ? options_.lightSamples : 1), path.sample);
+    const LobeSampling points = lightSampling(depth, soft ? options_.lightSamples : 1, path.sample);
     for (std::uint32_t k = 0; k < points.count; ++k) {
       const LightPoint point{points.count == 1, lightPoint(path.number, points, number, k)};
       LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading, point);

@@ -36,13 +36,13 @@ bool isKept(const Chunk& c) {
 template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
-  const std::size_t width = w.x1 - w.x0;
+  const int width = w.x1 - w.x0;
   for (const auto i : indices(c.n)) {
     if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
     if (!w.contains(x, y)) continue;
-    keep(i, static_cast<std::size_t>(y - w.y0) * width + static_cast<std::size_t>(x - w.x0));
+    keep(i, cellAt(x - w.x0, y - w.y0, width));
   }
 }
 
@@ -191,7 +191,7 @@ void updateImage(Chunk& c) {
 
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
-  const std::size_t width = film.image.windowWidth();
+  const int width = film.image.windowWidth();
   const Columns3 radiance = c.radiance.rgb;
   const std::uint32_t* const pixels = c.pixels.data();
   const std::uint32_t* const codes = film.wantDisplay ? c.codes : nullptr;
@@ -200,8 +200,7 @@ void updateImage(Chunk& c) {
   const std::size_t n = c.n;
 
   const auto placeOf = [&](std::uint32_t pixel) {
-    return static_cast<std::size_t>(pixelY(pixel) - top) * width +
-           static_cast<std::size_t>(pixelX(pixel) - left);
+    return cellAt(pixelX(pixel) - left, pixelY(pixel) - top, width);
   };
 
   // The film is larger than the caches: its lines are asked for before they are written.

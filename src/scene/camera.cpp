@@ -5,6 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "core/index.h"
 #include "scene/members.h"
 
 namespace whit {
@@ -24,7 +25,7 @@ Vec3f between(const Vec3f& a, const Vec3f& b, double s) {
 }
 std::vector<float> between(std::vector<float> a, const std::vector<float>& b, double s) {
   if (a.size() != b.size()) return a;
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = between(a[i], b[i], s);
+  for (const auto i : indices(a)) a[i] = between(a[i], b[i], s);
   return a;
 }
 template <typename Enum>

@@ -134,7 +134,7 @@ Json parseGltf(const std::string& bytes, const std::string& name, MemoryBudget& 
   // Each value follows a separator, so that their number limits the memory of the parsed text.
   const auto values =
       std::ranges::count_if(text, [](char c) { return c == ',' || c == '[' || c == '{'; });
-  budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);
+  budget.charge(values, kBytesPerJsonValue, name);
   return parseJson(std::string(text), name);
 }
 

@@ -329,7 +329,7 @@ class PlyReader {
     if (colors) mesh_.colors.resize(element.count);
     std::array<float, kComponents + 1> v{};
 
-    for (std::uint64_t i = 0; i < element.count; ++i) {
+    for (const auto i : indices(element.count)) {
       readElement(element, [&](const PlyProperty& property, double value) {
         const Component to = components[&property - element.properties.data()];
         v[to] = valueOf(property, to, value);
