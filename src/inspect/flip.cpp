@@ -214,8 +214,8 @@ float hyAb(const Vec3f& p, const Vec3f& q) {
 // reach, the rest.
 float redistribute(float distance) {
   static const double largest =
-      std::pow(static_cast<double>(hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))), kColorExponent);
-  const double powered = std::pow(static_cast<double>(distance), kColorExponent);
+      std::pow(double{hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))}, kColorExponent);
+  const double powered = std::pow(double{distance}, kColorExponent);
   const double knee = kKnee * largest;
   return static_cast<float>(powered < knee ? powered * kKneeError / knee
                                            : kKneeError + (powered - knee) / (largest - knee) *

@@ -31,8 +31,7 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
 
     values += 3;
     for (int c = 0; c < 3; ++c) {
-      const double x = static_cast<double>(a.pixels[i][c]);
-      const double reference = static_cast<double>(b.pixels[i][c]);
+      const double x = double{a.pixels[i][c]}, reference = double{b.pixels[i][c]};
       const double square = (x - reference) * (x - reference);
       squares += square;
       relative += square / (reference * reference + kRelativeEpsilon);

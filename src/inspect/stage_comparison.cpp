@@ -60,7 +60,7 @@ double ulpOf(double magnitude) {
   // too: workers flush what is smaller to zero.
   constexpr float least = 1e-25f;
   const float at = std::max(m, least);
-  return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
+  return double{std::nextafter(at, std::numeric_limits<float>::infinity()) - at};
 }
 
 // The place of a row, and the row of the scalar reference.

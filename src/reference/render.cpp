@@ -65,7 +65,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
   const std::vector<Vec2f> pattern = samplePattern(options.spp);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
-  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
+  const double scale = std::exp2(double{options.exposure.ev});
   forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
     if (edges[first.index(x, y)] == 0) return;
     PixelProbes& pixel = probes.at(x, y);

@@ -78,11 +78,11 @@ void keepChildren(Chunk& c, const Keeps& keeps) {
 
 // The child counts for all of its surface's, as the one that was chosen.
 void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
-  const double grows = of.weights / static_cast<double>(largestWeight(c.children, child));
+  const double grows = of.weights / double{largestWeight(c.children, child)};
   for (float* weight : {c.children.weight.x, c.children.weight.y, c.children.weight.z}) {
-    weight[child] = static_cast<float>(static_cast<double>(weight[child]) * grows);
+    weight[child] = static_cast<float>(double{weight[child]} * grows);
   }
-  const auto before = static_cast<double>(c.rays.throughput[c.children.parent[child]]);
+  const double before = double{c.rays.throughput[c.children.parent[child]]};
   c.children.throughput[child] = static_cast<float>(before * of.weights);
 }
 
@@ -92,7 +92,7 @@ void narrowTrees(Chunk& c) {
   for (const auto i : indices(c.childCount)) {
     Narrowing& parent = c.narrowings[parents[i]];
     ++parent.children;
-    parent.weights += static_cast<double>(largestWeight(c.children, i));
+    parent.weights += double{largestWeight(c.children, i)};
   }
 
   keepChildren(c, [&](std::size_t i) {
@@ -104,7 +104,7 @@ void narrowTrees(Chunk& c) {
     // Each child has its share of the line from 0 to the sum of the weights.
     const double drawn = choiceDraw(c.rays.path[parents[i]]) * parent.weights;
     const double begin = parent.passed;
-    parent.passed += static_cast<double>(largestWeight(c.children, i));
+    parent.passed += double{largestWeight(c.children, i)};
     if (drawn < begin || drawn >= parent.passed) return false;
     standForAll(c, i, parent);
     return true;

@@ -72,8 +72,7 @@ std::vector<double> readTimes(const GltfDocument& document, const JsonValue& inp
   if (times.empty()) input.fail("at least one time", "none");
   for (const auto i : indices(times)) {
     if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
-    input.fail("finite times that increase",
-               formatted("%g at index %zu", static_cast<double>(times[i]), i));
+    input.fail("finite times that increase", formatted("%g at index %zu", double{times[i]}, i));
   }
   return {times.begin(), times.end()};
 }

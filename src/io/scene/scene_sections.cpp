@@ -360,7 +360,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
 
 Json describe(float x) {
   const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
-  return static_cast<float>(shortest) == x ? shortest : static_cast<double>(x);
+  return static_cast<float>(shortest) == x ? shortest : double{x};
 }
 
 Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }
