@@ -242,7 +242,7 @@ class TreeReader {
     if (own.motion) {
       document_.budget().charge(1, 2 * sizeof(RigNode), node.where());
       stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
-      mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
+      mover = size32(stage_.movers) - 1;
     }
     if (!isUsable(map)) {
       warn("node that flattens space left out", index);
@@ -364,7 +364,7 @@ class TreeReader {
       document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
       RigNode node = nodeOf(*at);
       if (parents_[*at] != kTopmost) node.parent = places.at(parents_[*at]);
-      places[*at] = static_cast<std::uint32_t>(rig.size());
+      places[*at] = size32(rig);
       rig.push_back(std::move(node));
     }
     return places.at(index);

@@ -96,7 +96,7 @@ class ObjReader {
   // The materials of the mesh are indices into `materials`; faces before the first usemtl have the
   // index after the last one.
   Mesh read() {
-    const auto count = static_cast<std::uint32_t>(materials.size());
+    const auto count = size32(materials);
     material_ = kNoMaterial;
     findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
@@ -179,7 +179,7 @@ class ObjReader {
     const std::string name(line.rest());
     if (name.empty()) return;
     if (keyword == "usemtl") {
-      const auto number = static_cast<std::uint32_t>(materials.size());
+      const auto number = size32(materials);
       const auto [known, isNew] = materialNumbers_.emplace(name, number);
       if (isNew) materials.push_back({name, line.place()});
       material_ = known->second;
@@ -346,7 +346,7 @@ class ObjReader {
     for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = known_[v].older, --left) {
       if (known_[v].uv == corner.uv && known_[v].normal == corner.normal) return v;
     }
-    const auto number = static_cast<std::uint32_t>(known_.size());
+    const auto number = size32(known_);
     known_.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
     mesh_.positions.push_back(positions_[position]);
     const bool hasUv = corner.uv != kNoIndex;
@@ -460,7 +460,7 @@ class ObjModel : public MeshModel {
       const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
       if (coordinates == GltfMaterial::Coordinates()) continue;
       for (std::uint32_t& corner : mesh_.triangles[i]) {
-        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto next = size32(mesh_.positions);
         const auto [copy, isNew] = copies.emplace(std::pair(material, corner), next);
         if (isNew) copyVertex(corner, coordinates);
         corner = copy->second;
