@@ -146,34 +146,30 @@ void Workspace::takeChunk(int depth, Chunk& chunk) {
   chunk.light = nullptr;
 }
 
-void Workspace::returnTo(int depth, Chunk& chunk) const {
-  const Level& at = level(depth);
+void Workspace::returnTo(int depth, Chunk& chunk) {
+  Level& at = level(depth);
   chunk.depth = depth;
   chunk.first = at.cursor;
   chunk.n = at.chunk;
   chunk.rays = advanced(*at.rays, at.cursor);
   chunk.radiance = *at.radiance;
-  chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
-
-  const auto countsOf = [](const Level& l) {
-    return const_cast<std::uint32_t*>(l.rayCounts.data());
-  };
-  chunk.rayCounts = countsOf(at);
+  chunk.rayCounts = at.rayCounts.data();
   if (plan_.limitsRays) {
-    chunk.pixelSlots = const_cast<std::uint32_t*>(at.pixelSlots.data()) + at.cursor;
-    chunk.followed = const_cast<std::uint32_t*>(followed_.data());
-    chunk.narrowings =
-        narrows_ ? const_cast<Narrowing*>(at.narrowings.data()) + at.cursor : nullptr;
+    chunk.pixelSlots = at.pixelSlots.data() + at.cursor;
+    chunk.followed = followed_.data();
+    chunk.narrowings = narrows_ ? at.narrowings.data() + at.cursor : nullptr;
   }
 
-  chunk.parentRayCounts = depth > 0 ? countsOf(level(depth - 1)) : nullptr;
+  // Primary rays have no parents.
+  chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
+  chunk.parentRayCounts = depth > 0 ? level(depth - 1).rayCounts.data() : nullptr;
 
   // These columns exist only once, because one chunk is shaded at a time.
   chunk.hits = *hits_;
   chunk.surfels = *surfels_;
   chunk.unshadowed = *unshadowed_;
   chunk.shadows = *shadows_;
-  chunk.codes = const_cast<std::uint32_t*>(codes_.data());
+  chunk.codes = codes_.data();
 }
 
 void Workspace::returnToPixels(Chunk& chunk) {
