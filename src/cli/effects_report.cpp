@@ -1,6 +1,5 @@
 #include "cli/effects_report.h"
 
-#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 

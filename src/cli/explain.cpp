@@ -7,7 +7,6 @@
 #include "cli/commands.h"
 #include "cli/lesson.h"
 #include "command_line/progress_bar.h"
-#include "core/display.h"
 #include "core/error.h"
 #include "core/index.h"
 #include "core/option_table.h"

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <functional>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>

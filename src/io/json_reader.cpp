@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/index.h"
-#include "core/text.h"
 #include "io/files.h"
 
 namespace whit {

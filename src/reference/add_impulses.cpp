@@ -1,13 +1,11 @@
 #include "reference/add_impulses.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "reference/fresnel.h"
 #include "sampling/ggx_lobe.h"
-#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

@@ -1,6 +1,5 @@
 #include "render/plan.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "accel/accel.h"

@@ -1,13 +1,11 @@
 #include "render/steps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "accel/accel.h"
-#include "bake/scene.h"
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/image.h"

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/huge_vector.h"
-#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {

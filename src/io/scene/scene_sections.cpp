@@ -6,7 +6,6 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "make/studio_sky.h"
