@@ -214,7 +214,7 @@ class ObjReader {
     if (readNumbers(v.data(), 3) < 3) {
       throwBadScene(lines_.place(), "expected three numbers after \"vn\"");
     }
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    return Vec3f(Vec3d(v[0], v[1], v[2]));
   }
 
   void face() {
