@@ -1,6 +1,5 @@
 #include "io/gltf/material.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

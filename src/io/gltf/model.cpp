@@ -86,7 +86,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
       to.influences.resize(to.firstInfluence.back());
       to.influences.push_back({static_cast<std::uint32_t>(own), 1});
     }
-    to.firstInfluence.push_back(static_cast<std::uint32_t>(to.influences.size()));
+    to.firstInfluence.push_back(size32(to.influences));
   }
 }
 
@@ -369,7 +369,7 @@ class GltfModel : public Model {
       scene.width = static_cast<int>(std::lround(aspect * scene.height));
     }
 
-    const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
+    const auto first = size32(scene.motion.rig);
     for (RigNode node : stage_.movers) {
       putInParent(node.parent, node.toParent, first, scene);
       scene.motion.rig.push_back(std::move(node));
@@ -381,7 +381,7 @@ class GltfModel : public Model {
       // Far enough for the direction to survive the rounding of eye and at.
       camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
       camera.up = Vec3f(normalized(map.y));
-      const auto number = static_cast<std::uint32_t>(scene.cameras.size());
+      const auto number = size32(scene.cameras);
       if (mover != kNoNode) scene.motion.cameras.push_back({number, mover, camera});
       scene.cameras.push_back(camera);
     }
@@ -390,7 +390,7 @@ class GltfModel : public Model {
       putInParent(mover, map, first, scene);
       light.position = Vec3f(map.p);
       light.direction = Vec3f(-normalized(map.z));
-      const auto number = static_cast<std::uint32_t>(scene.lights.size());
+      const auto number = size32(scene.lights);
       if (mover != kNoNode) {
         scene.motion.lights.push_back({number, mover, light.position, light.direction});
       }

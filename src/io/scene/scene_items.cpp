@@ -119,7 +119,7 @@ std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
   const auto found = std::ranges::find(names, key);
   if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + suggestion(key, names));
-  return static_cast<std::size_t>(found - names.begin());
+  return found - names.begin();
 }
 
 // The map that turns an axis up.
