@@ -176,6 +176,7 @@ class GltfMaterialReader {
     warnIf(volume["thicknessTexture"].exists(),
            "thickness of a volume by a texture left out: what the mesh encloses counts");
     m_.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
+    warnOfSpecularSolid();
 
     // Without a distance nothing is absorbed.
     const double distance = volume["attenuationDistance"].numberOr(0);
@@ -186,6 +187,18 @@ class GltfMaterialReader {
       const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
       m_.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
     }
+  }
+
+  // The interface of a solid reflects and transmits by its index of refraction alone. The factors
+  // of KHR_materials_specular scale the highlights of lights.
+  void warnOfSpecularSolid() const {
+    const JsonValue specular = extensions_["KHR_materials_specular"];
+    const Rgb color = colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
+    const bool isScaled = m_.f90 < 1 || !(color == Rgb(1.0f)) || m_.specularMap.exists() ||
+                          m_.specularColorMap.exists();
+    warnIf(isScaled && m_.transmission > 0 && m_.thickness > 0,
+           "KHR_materials_specular of a material with a volume left out, but for the highlights of "
+           "lights: it reflects by its ior alone");
   }
 
   void readClearcoat() {
