@@ -468,6 +468,24 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   expectColor(reflected(glass, 0), Rgb{0.04f, 0.02f, 0.01f});
 }
 
+TEST_F(GltfMaterials, EmissionBelowAClearcoatIsSaidNotToBeDimmed) {
+  const char* const kind =
+      "emission below a clearcoat not dimmed by it: too bright by what the coat reflects";
+  const auto warnedOf = [&](const std::string& coat, const std::string& emission) {
+    const std::uint64_t before = warned(kind);
+    loadText(sceneText(
+        {{0,
+          "{\"emissiveFactor\":" + emission +
+              ",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":" + coat + "}}}",
+          1}}));
+    return warned(kind) - before;
+  };
+
+  EXPECT_EQ(warnedOf("1", "[0,0.5,0]"), 1u);
+  EXPECT_EQ(warnedOf("0", "[0,0.5,0]"), 0u);
+  EXPECT_EQ(warnedOf("1", "[0,0,0]"), 0u);
+}
+
 TEST_F(GltfMaterials, EmissionAndUnlit) {
   candela_ = 0;
   expectColor(pixel("{\"emissiveFactor\":[0.5,0.25,0],\"extensions\":"

@@ -208,6 +208,9 @@ class GltfMaterialReader {
     m_.clearcoatMap = texture(coat["clearcoatTexture"]);
     m_.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
     warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+    // A coat is a mirror, and mirrors of other materials, such as metals, dim no emission.
+    warnIf(m_.clearcoat > 0 && maxComponent(m_.emission) > 0,
+           "emission below a clearcoat not dimmed by it: too bright by what the coat reflects");
   }
 
   const GltfDocument& document_;
