@@ -249,6 +249,11 @@ void setCoverage(const GltfMaterial& g, const GltfMeans& means, Material& m) {
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
   }
 
+  if (means.maskBlends) {
+    m.thin = true;
+    m.alphaCutoff = kClearCoverage;
+  }
+
   // A mask that cuts everything, with or without a map.
   if (cuts && g.alpha < g.alphaCutoff) m.coverage = 0;
 }
