@@ -42,6 +42,12 @@ void readTargets(const GltfDocument& document, const JsonValue& targets, Deforma
   for (const auto i : indices(targets)) {
     const bool weighs = i < to.weights.size() && to.weights[i] != 0;
     if (!weighs && !to.movingWeights) continue;
+    for (const auto& [name, accessor] : targets[i].members()) {
+      if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
+      document.warnings().add(
+          "colors or texture coordinates of a morph target left out: they stay as they are",
+          targets.where());
+    }
     to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
                      vectorsOf(document, targets[i]["NORMAL"], to.normals.size())};
   }
