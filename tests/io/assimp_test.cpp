@@ -328,6 +328,15 @@ TEST_F(Assimp, FacesOfOffWithBadCornersAreCounted) {
   EXPECT_EQ(warned("vertex index out of range replaced by the last vertex"), 1u);
 }
 
+// Colors of vertices are read, and a comment is no color.
+TEST_F(Assimp, ColorsOfFacesOfOffAreSaidToBeLeftOut) {
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  loadBytes("off", "OFF\n4 2 0\n" + vertices + "3 0 1 2 # 9\n3 0 2 3\n");
+  EXPECT_EQ(warned("colors of faces left out"), 0u);
+  loadBytes("off", "OFF 4 2 0\n" + vertices + "3 0 1 2\n\n3 0 2 3 255 0 0\n");
+  EXPECT_EQ(warned("colors of faces left out"), 1u);
+}
+
 // STL files have normals beside corners, OFF files have not.
 TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -264,6 +264,7 @@ class Interpreter {
     m.clearcoatMap = texture("map_pc");
     m.clearcoatRoughnessMap = texture("map_pcr");
     if (m.baseMap.exists() || m.maskMap.exists()) m.alphaMode = GltfMaterial::Alpha::mask;
+    m.maskMayBlend = m.alphaMode == GltfMaterial::Alpha::mask;
 
     m.normalMap = texture("norm");
     const char* normals = "norm";

@@ -98,6 +98,7 @@ class ObjReader {
   Mesh read() {
     const auto count = size32(materials);
     material_ = kNoMaterial;
+    facesWithoutUvs.assign(count + 1, 0);
     findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
     if (mesh_.triangles.empty()) {
@@ -119,6 +120,9 @@ class ObjReader {
 
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
+  // Numbers of faces with a corner without texture coordinates, by their index into `materials`;
+  // the last are those of no material.
+  std::vector<std::uint64_t> facesWithoutUvs;
   bool isColored = false;  // the first vertex has a color
   Vec3d origin;            // subtracted from all vertices, see originOf()
 
@@ -275,6 +279,9 @@ class ObjReader {
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
     if (lacksNormals && smoothing_ != 0) addToGroup();
     const bool isFlat = lacksNormals && smoothing_ == 0;
+    const bool lacksUvs =
+        std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.uv == kNoIndex; });
+    if (lacksUvs) ++facesWithoutUvs[std::min<std::size_t>(material_, facesWithoutUvs.size() - 1)];
     mesh_.hasFlatFaces |= isFlat;
     hasNormals_ |= !isFlat;
     points_.clear();
@@ -441,6 +448,7 @@ class ObjModel : public MeshModel {
     if (reader_) {
       mesh_ = reader_->read();
       origin_ = reader_->origin;
+      warnOfMissingUvs();
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
@@ -450,6 +458,16 @@ class ObjModel : public MeshModel {
   }
 
  private:
+  void warnOfMissingUvs() const {
+    for (const auto i : indices(reader_->facesWithoutUvs)) {
+      const GltfMaterial& material = sources_[i].surface;
+      if (!material.isMapped() && !material.maskMap.exists()) continue;
+      source_.warnings.add(
+          "face without texture coordinates has the texel at (0, 0) of its material's textures",
+          file_ + ": " + excerpt(material.name), reader_->facesWithoutUvs[i]);
+    }
+  }
+
   // Applies the offsets and scales of maps. Materials whose maps have any get vertices of their
   // own, because the file's vertices are shared by materials.
   void mapCoordinates() {
