@@ -161,7 +161,7 @@ SceneChange Panel::draw(const ViewState& state, float bottom, WindowState& shown
     // The tab is as high as its contents, and scrolls if the window is lower.
     const float line = ImGui::GetFontSize();
     const float room = top_ + height_ - ImGui::GetCursorScreenPos().y - line;
-    ImGui::BeginChild("tab", ImVec2(0, std::max(std::min(room, contents_), line)));
+    ImGui::BeginChild(shown.tab.c_str(), ImVec2(0, std::max(std::min(room, contents_), line)));
     change = drawTab(state, shown, said);
     contents_ = ImGui::GetCursorPosY();
     ImGui::EndChild();
