@@ -30,11 +30,12 @@ void App::handleInput() {
   }
 
   move(input);
+  const bool hasScene = !session_.choosesScene();
   for (const std::string& key : input.pressed) {
     // Before there is a scene, no other keys have anything to do.
-    if (session_.showsScene() || key == "Esc" || key == "F11") act(lineOfKey(key));
+    if (hasScene || key == "Esc" || key == "F11") act(lineOfKey(key));
   }
-  if (clicked && session_.showsScene()) click(*clicked);
+  if (clicked && hasScene) click(*clicked);
   if (!input.dropped.empty()) act("open " + input.dropped.front());
 }
 
@@ -93,7 +94,7 @@ void App::close() {
 
   if (std::exchange(savesPicture_, false)) {
     session_.say("the picture is not saved");
-  } else if (shown_.over != Over::nothing && session_.showsScene()) {
+  } else if (shown_.over != Over::nothing && !session_.choosesScene()) {
     shown_.over = Over::nothing;
   } else if (session_.state().rays.scene) {
     session_.act("forget");
@@ -143,6 +144,8 @@ void App::copyCommand() {
 }
 
 void App::saveScene() {
+  if (!session_.showsScene()) return;
+
   const SavedScene saved = session_.saveScene();
   printLine(saved.command);
   session_.say("saved the scene as " + saved.file + "; the command that renders it is printed");
