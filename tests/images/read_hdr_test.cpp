@@ -59,6 +59,7 @@ TEST_F(ReadHdr, OtherPrimariesAreSaidToBeLeftOut) {
   EXPECT_EQ(warnedOf(""), 0u);
   EXPECT_EQ(warnedOf("PRIMARIES=.64 .33 .29 .6 .15 .06 .333 .333\n"), 0u);
   EXPECT_EQ(warnedOf("PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n"), 0u);
+  EXPECT_EQ(warnedOf("PRIMARIES=0 0 0 0 0 0 0 0\n"), 0u) << "as Photoshop writes it";
   EXPECT_EQ(warnedOf("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n"), 1u);
 }
 

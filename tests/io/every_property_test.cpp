@@ -363,18 +363,20 @@ TEST_F(EveryProperty, OfGltf) {
       {extensions + "materials_clearcoat/clearcoatNormalTexture", {{"index", 0}}, "message"},
       {extensions + "materials_emissive_strength/emissiveStrength", 2, "emission"},
       {extensions + "materials_ior/ior", 1.2, "grazingRatio ior mirror texels"},
-      {extensions + "materials_specular/specularFactor", 1, "mirror texels"},
+      {extensions + "materials_specular/specularFactor", 1, "message mirror texels"},
       {extensions + "materials_specular/specularTexture", {{"index", 1}}, "mirror texels"},
       {extensions + "materials_specular/specularColorFactor", {1, 0.5, 0}, "mirror texels"},
       {extensions + "materials_specular/specularColorTexture", {{"index", 0}}, "mirror texels"},
       {extensions + "materials_transmission/transmissionFactor", 1, "diffuse transmission"},
       {extensions + "materials_transmission/transmissionTexture", {{"index", 0}}, "diffuse texels"},
       {extensions + "materials_unlit", SchemaJson::object(),
-       "absorption castsShadow coat diffuse diffuseMap emissionMap frosted glossyReflection mirror "
-       "mirrorGrazing nearest specular specularMap texels transmission transmissionMap vertexTint "
+       "message absorption castsShadow coat diffuse diffuseMap emissionMap frosted "
+       "glossyReflection "
+       "mirror mirrorGrazing nearest specular specularMap texels transmission transmissionMap "
+       "vertexTint "
        "wrapU wrapV"},
       {extensions + "materials_volume/thicknessFactor", 0,
-       "absorption glossyReflection mirror thin"},
+       "message absorption glossyReflection mirror thin"},
       {extensions + "materials_volume/thicknessTexture", {{"index", 0}}, "message"},
       {extensions + "materials_volume/attenuationDistance", 1, "absorption"},
       {extensions + "materials_volume/attenuationColor", {1, 0.5, 0.25}, "absorption"},

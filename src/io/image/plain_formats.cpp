@@ -2,6 +2,7 @@
 // Format Specification", 1991) and Radiance HDR (G. Ward, "Real Pixels", Graphics Gems II, 1991).
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -331,21 +332,27 @@ struct RadianceHeader {
 // Reads the numbers behind the "=" of a line, of which there may be fewer than asked for.
 std::vector<double> numbersOf(const std::string& line, std::size_t most) {
   std::vector<double> numbers;
-  const char* at = line.c_str() + line.find('=') + 1;
-  while (numbers.size() < most) {
-    char* end = nullptr;
-    const double number = std::strtod(at, &end);
-    if (end == at) break;
+  for (std::size_t at = line.find('=') + 1; numbers.size() < most;) {
+    at = line.find_first_not_of(" \t", at);
+    if (at == std::string::npos) break;
+
+    // Unlike std::strtod, this does not depend on the locale of the program that uses the library.
+    double number = 0;
+    const char* const end = line.data() + line.size();
+    const auto [next, error] = std::from_chars(line.data() + at, end, number);
+    if (error != std::errc()) break;
     numbers.push_back(number);
-    at = end;
+    at = static_cast<std::size_t>(next - line.data());
   }
   return numbers;
 }
 
-// Those of Rec. 709, and Radiance's own, which files without the line have as well.
+// Those of Rec. 709, and Radiance's own, which files without the line have as well. Photoshop
+// writes zeros.
 bool areUsualPrimaries(const std::vector<double>& found) {
   constexpr double kTolerance = 2e-3;
-  constexpr std::array<double, 8> kUsual[] = {{{.64, .33, .30, .60, .15, .06, .3127, .329}},
+  constexpr std::array<double, 8> kUsual[] = {{},
+                                              {{.64, .33, .30, .60, .15, .06, .3127, .329}},
                                               {{.64, .33, .29, .60, .15, .06, 1 / 3., 1 / 3.}}};
   return std::ranges::any_of(kUsual, [&](const auto& usual) {
     return std::ranges::equal(found, usual,
