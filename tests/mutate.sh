@@ -351,6 +351,11 @@ mutations() {
   testedBy reference_test 'FrostedGlass.ShowsWhatItsSurfaceTransmits'
   plant frosted-transmission-too-strong src/reference/add_impulses.cpp \
     '(passes * s.coverage) * f.transmission,' '(passes * s.coverage * 1.02) * f.transmission,'
+  plant frosted-color-too-strong src/reference/add_impulses.cpp \
+    '* surfel.transmission, mirror);
+    frosting.mediaBehind' \
+    '* 1.02 * surfel.transmission, mirror);
+    frosting.mediaBehind'
 
   testedBy reference_test 'Projections.*'
   plant camera-without-skew src/scene/camera.cpp 'double{camera.k[4]} * scaleX * stepY' '0'

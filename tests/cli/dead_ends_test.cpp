@@ -67,7 +67,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"accuracy mirrors --out out --mode reference", kUsage, "leave out --mode"},
     {"effects", kUsage, "--out"},
     {"effects --out x --disable sky", kUsage, "--disable"},
-    {"effects --out x --mode reference", kUsage, "--mode"},
+    {"effects --out x --mode reference", kUsage, "whit effects is for packets"},
     {"effects --out /proc/no/such", kIo, "/proc/no/such"},
     {"explain whitted", kUsage, "expected --pixel x,y"},
     {"explain whitted --pixel 3", kUsage, "--pixel expected x,y, as in 240,150; found '3'"},

@@ -210,10 +210,10 @@ TEST(Trilinear, ADistantChequerboardIsItsMean) {
   }
 
   const Scene scene = floorOf(makeTexture(TexelFormat::color, kTexels, kTexels, texels));
-  // Half of the light, up to half a code of its square root.
+  // Half of the light, up to half a code of its square root, in each of three channels.
   for (const double x : {3.3, 4.0, 4.5, 5.2}) {
     expectNear(seen(scene, {{x, 200, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), RgbD(0.5),
-               0.5 / 1023 * 1.5);
+               std::sqrt(3.0) * 0.5 / 1023 * 1.5);
   }
 }
 
