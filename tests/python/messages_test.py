@@ -8,6 +8,8 @@ import re
 import unittest
 import warnings
 
+import numpy as np
+
 import whit
 from samples import SIZE, scene_of, square_scene, temporary_folder
 from whit import _options
@@ -58,6 +60,17 @@ class Messages(unittest.TestCase):
             (lambda: scene.set_time(1), ValueError, "^set_time: .* made without moves=True$"),
             (lambda: scene.set_transform("/scene/0", [[1e30] * 4] * 3), ValueError, "^set_transf"),
             (lambda: scene.set("lights", 4), ValueError, "^'lights=4': expected a JSON pointer such"),
+            (lambda: whit.Scene("whitted", max_memory_gb=-1), ValueError, "^max_memory_gb: expected"),
+            (lambda: whit.Scene("whitted", max_memory_gb=float("nan")), ValueError, "^max_memory_gb"),
+            (lambda: whit.Scene("whitted", threads=-1), ValueError, "^threads: expected a whole"),
+            (lambda: whit.Camera({"eye": [0, 0, 5]}, SIZE), ValueError, '^camera: .* member "at"'),
+            (lambda: whit.Camera({"at": [0, 0, 5]}, SIZE), ValueError, '^camera: .* member "eye"'),
+            (lambda: scene.render(size=64), ValueError, r"^size: expected \(width, height\) in p"),
+            (lambda: scene.render(eye=(0, 1)), ValueError, r"expected three numbers \(x, y, z\), f"),
+            (lambda: scene.set_transform("/scene/0", np.eye(4)), ValueError, r"movable=\[...\]"),
+            (lambda: scene.update_mesh("x", np.zeros((3, 3))), ValueError, "whit.Mesh\\(...\\)"),
+            (lambda: scene.render(size=SIZE).write("x.albedo.png"), ValueError,
+             r"no channel 'albedo': render\(channels=\['albedo'\]\)$"),
             (lambda: whit.Scene("whitted", sphere_segments=2), ValueError, "^sphere_segments exp"),
             (lambda: whit.Scene("no-such-scene"), ValueError, "no-such-scene"),
             (lambda: whit.Scene({"lights": 4}), ValueError, "/lights"),
@@ -72,6 +85,10 @@ class Messages(unittest.TestCase):
                 call()
             self.assertIsInstance(caught.exception, whit.Error)
             self.assertIsNone(COMMAND_LINE.search(str(caught.exception)))
+
+    def test_a_camera_is_no_dict(self):
+        with self.assertRaisesRegex(TypeError, r"whit\.Camera\(members, size\)"):
+            whit.Scene("whitted").render(camera={"eye": [0, 0, 5], "at": [0, 0, 0]})
 
     def test_errors_of_files_are_those_of_the_system(self):
         picture = whit.Scene("whitted").render(size=SIZE)

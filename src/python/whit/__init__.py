@@ -249,6 +249,10 @@ class Scene:
                  sphere_segments: int = 0, strict: bool = False, allow_outside: bool = False,
                  max_memory_gb: float = 0.0, threads: int = 0,
                  progress: Optional[Progress] = None, name: str = "scene") -> None:
+        if not max_memory_gb >= 0:
+            _arrays._fail("max_memory_gb", "a number from 0", str(max_memory_gb))
+        if threads < 0:
+            _arrays._fail("threads", "a whole number from 0", str(threads))
         description = Description(name)
         texts = [f"{pointer}={description.text(value, pointer)}"
                  for pointer, value in (settings or {}).items()]
@@ -342,8 +346,10 @@ class Scene:
         """
         meshes = self._source[2] if len(self._source) > 1 else {}
         if name not in meshes:
-            known = ", ".join(map(repr, meshes)) or "a scene of a dict with a whit.Mesh"
-            _arrays._fail("name", known, repr(name))
+            if not meshes:
+                raise Error("update_mesh: only a scene made of a dict has meshes to update, as "
+                            '{"mesh": whit.Mesh(...)}', 2)
+            _arrays._fail("name", ", ".join(map(repr, meshes)), repr(name))
         if isinstance(positions, Mesh):
             arrays = positions._arrays()
         else:
@@ -376,6 +382,8 @@ class Scene:
                progress: Optional[Progress] = None, **options: Any) -> Picture:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         camera = options.get("camera")
+        if isinstance(camera, Mapping):
+            raise TypeError("camera: expected a name or a whit.Camera(members, size), found a dict")
         if not isinstance(camera, Camera):
             texts = _options.texts(options, self._object)
             return Picture(self._object.render(texts, path_time, progress, "", (budget, target)))

@@ -28,6 +28,9 @@ class Camera:
                  axes: str = "opencv") -> None:
         if axes not in _AXES:
             _fail("axes", '"opencv" or "opengl"', repr(axes))
+        for name in ("eye", "at"):
+            if name not in members:
+                _fail("camera", f'a member "{name}"', str(list(members)))
         self.members = dict(members)
         self.size = (int(size[0]), int(size[1]))
         self.axes = axes
@@ -48,19 +51,18 @@ class Camera:
         place = np.reshape(_arrays.matrix(pose, "pose"), (3, 4))
         if not (k[0, 0] > 0 and k[1, 1] > 0):
             _fail("K", "focal lengths above 0", str(k.tolist()))
-        camera = cls({}, size, axes=axes)
-        turn = place[:, :3] * _AXES[axes]
+        turn = place[:, :3] * _AXES.get(axes, (1, 1, 1))  # cls() refuses unknown axes
         if not (np.allclose(turn.T @ turn, np.eye(3), atol=1e-5) and np.linalg.det(turn) > 0):
             _fail("pose", "a rotation and a translation", str(place.tolist()))
         eye = place[:, 3]
         # Far enough that rounding `at` to a float does not turn the camera.
         at = eye + turn[:, 2] * max(1.0, float(np.linalg.norm(eye)))
-        camera.members = {"eye": eye.tolist(), "at": at.tolist(), "up": (-turn[:, 1]).tolist(),
-                          "k": [float(k[i]) for i in ((0, 0), (1, 1), (0, 2), (1, 2), (0, 1))],
-                          "kSize": list(camera.size)}
+        members = {"eye": eye.tolist(), "at": at.tolist(), "up": (-turn[:, 1]).tolist(),
+                   "k": [float(k[i]) for i in ((0, 0), (1, 1), (0, 2), (1, 2), (0, 1))],
+                   "kSize": [int(size[0]), int(size[1])]}
         if len(distortion) > 0:
-            camera.members["distortion"] = [float(c) for c in distortion]
-        return camera
+            members["distortion"] = [float(c) for c in distortion]
+        return cls(members, size, axes=axes)
 
     @property
     def pose(self) -> np.ndarray:

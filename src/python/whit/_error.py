@@ -81,6 +81,11 @@ class LimitError(Error, MemoryError):
 
 _NAMES = (  # what the library says, and what Python says; the first that fits counts
     (r"it was loaded without LoadOptions::moves", "the scene was made without moves=True"),
+    (r"no channel '(\w+)': set\(.*\)", r"no channel '\1': render(channels=['\1'])"),
+    (r"is not among what was to be moved when .* was loaded",
+     "is not in the argument movable=[...] of whit.Scene()"),
+    (r"WIDTHxHEIGHT in pixels, each (.*), as 1280x720", r"(width, height) in pixels, each \1"),
+    (r"three numbers x,y,z without blanks, as 0,1.5,-2", "three numbers (x, y, z)"),
     (r"\bsetTime\b", "set_time"),
     (r"\bsetTransform\b", "set_transform"),
     (r"\bupdateMesh\b", "update_mesh"),
