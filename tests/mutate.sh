@@ -204,7 +204,7 @@ mutations() {
   plant specular-not-clamped src/io/gltf/material.cpp \
     'm_.f90 = readNumber(specular["specularFactor"], 1);' \
     'm_.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
-  testedBy cli_test 'EveryOption.*:Program.*:TurntableCommand.*:MemoryMb.*:Limits.*'
+  testedBy cli_test 'EveryOption.*:Program.*:DeadEnds.*:TurntableCommand.*:MemoryMb.*:Limits.*'
   plant too-little-energy-passes src/cli/compare.cpp \
     'std::fabs(d.energyRatio - 1) <= kMostEnergyOff' 'd.energyRatio - 1 <= kMostEnergyOff'
   plant merge-not-strict src/cli/merge.cpp 'warnings(common.render.strict)' 'warnings(false)'
@@ -347,6 +347,10 @@ mutations() {
     'underWay_.erase(underWay_.begin(), found + 1);' 'underWay_.erase(found);'
   plant download-name-as-it-is viewer/serve/server.cpp \
     'std::isalnum(static_cast<unsigned char>(c)) ? c : '\''-'\''' 'c'
+
+  testedBy reference_test 'FrostedGlass.ShowsWhatItsSurfaceTransmits'
+  plant frosted-transmission-too-strong src/reference/add_impulses.cpp \
+    '(passes * s.coverage) * f.transmission,' '(passes * s.coverage * 1.02) * f.transmission,'
 
   testedBy reference_test 'Projections.*'
   plant camera-without-skew src/scene/camera.cpp 'double{camera.k[4]} * scaleX * stepY' '0'

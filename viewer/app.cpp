@@ -21,25 +21,35 @@ constexpr int kFramesToAnswer = 4;
 
 }  // namespace
 
-App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Window& window,
-         const KeptSettings& kept, ScriptedUser* scripted)
-    : scripted_(scripted),
-      window_(window),
-      session_(options, scene, &Window::wake),
-      shown_{kept},
-      sceneName_(options.scene) {
-  rememberRecent(sceneName_, shown_.recent);
-  if (kept.panel) shown_.over = Over::panel;
-
-  // The hint stays until a key or a click.
-  session_.say("H: the keys, P: the panel. Drag to turn, the wheel goes forward",
-               std::numeric_limits<double>::infinity());
+// The size of the scene's picture is known only when it has been read; until then the window has a
+// default size.
+App::App(const ViewOptions& options, ScriptedUser* scripted)
+    : options_(options),
+      scripted_(scripted),
+      shown_{readKeptSettings()},
+      fitted_(sizeFor(Scene())),
+      window_("whit", fitted_),
+      session_(options, nullptr, &Window::wake) {
+  if (shown_.panel) shown_.over = Over::panel;
+  if (!options.scene.empty()) session_.open(options.scene);
 }
 
 KeptSettings App::kept() const {
   KeptSettings kept = shown_;
   kept.panel = shown_.over == Over::panel;
+  // A size that the user has not chosen is not kept, so that the next scene is fitted anew.
+  if (!window_.isFullScreen() && window_.size() != fitted_) kept.window = window_.size();
   return kept;
+}
+
+// Returns the size of a window that shows the scene: the one asked for, or else the largest with
+// the scene's aspect that has room on the screen.
+ImageSize App::sizeFor(const Scene& scene) const {
+  const ImageSize room = Display::room(shown_.window);
+  const double scale = std::min(static_cast<double>(room.width) / scene.width,
+                                static_cast<double>(room.height) / scene.height);
+  const auto scaled = [&](int side) { return std::max(static_cast<int>(side * scale), 1); };
+  return options_.common.render.size.value_or(ImageSize{scaled(scene.width), scaled(scene.height)});
 }
 
 void App::run() {
@@ -54,11 +64,13 @@ bool App::step() {
   window_.poll(waitSeconds());
   const bool fresh = session_.fetchFrame();
   window_.poll(0);  // the next picture includes what the user did until this one came
+  followScene();
+  tellErrors();
   const double seconds = tick();
 
   // A script takes the place of the user's events.
-  if (scripted_) {
-    window_.input = Input();
+  if (scripted_) window_.input = Input();
+  if (scripted_ && !awaitsScene()) {
     if (!scripted_->act(session_.state().sharp, window_.input, shown_)) return false;
     if (!shown_.supersample) session_.endSupersampling();
   }
@@ -68,7 +80,6 @@ bool App::step() {
   handleInput();
   session_.advance(seconds);
   if (savesPicture_ && session_.isComplete()) act("save-picture");
-  followScene();
   tellErrors();
 
   if (fresh) showPicture();
@@ -78,7 +89,9 @@ bool App::step() {
 }
 
 double App::waitSeconds() const {
-  if (scripted_) return session_.isBusy() ? ScriptedUser::kSecondsPerFrame : 0;
+  if (scripted_) {
+    return session_.isBusy() || awaitsScene() ? ScriptedUser::kSecondsPerFrame : 0;
+  }
   if (drawAgain_ > 0) return 0;
   if (session_.isCommitted()) return kUndrawnSeconds;  // no request is taken until it is finished
 
@@ -105,10 +118,19 @@ double App::tick() {
   return std::min(seconds, kLongestSeconds);
 }
 
-// Names another scene in the title and in the list of recent ones.
+// Names another scene in the title and in the list of recent ones. The first one gives the window
+// its size, and a hint that stays until a key or a click.
 void App::followScene() {
   const ViewState& state = session_.state();
   if (state.sceneName == sceneName_) return;
+  if (sceneName_.empty()) {
+    fitted_ = sizeFor(state.scene->scene);
+    window_.resize(fitted_);
+    hints_ = true;
+    session_.say("H: the keys, P: the panel. Drag to turn, the wheel goes forward",
+                 std::numeric_limits<double>::infinity());
+  }
+
   sceneName_ = state.sceneName;
   rememberRecent(sceneName_, shown_.recent);
   window_.setTitle("whit: " + state.scene->scene.name);
@@ -118,7 +140,7 @@ void App::tellErrors() {
   const ViewState& state = session_.state();
   if (std::exchange(errors_, state.errors) == state.errors) return;
   if (scripted_ && !scripted_->survivesErrors()) {
-    throw Error(ExitStatus::checkFailed, state.error);
+    throw Error(state.status, state.error);
   }
   std::fprintf(stderr, "whit-view: %s\n", printable(state.error).c_str());
 }
@@ -126,7 +148,6 @@ void App::tellErrors() {
 // Fills the window with the frame.
 void App::showPicture() {
   const ViewState& state = session_.state();
-  if (!state.shown.scene) return;
   if (state.unfinished) {
     window_.upload(state.unfinished->display, state.unfinished->request.window);
   } else {
@@ -141,7 +162,8 @@ void App::draw() {
   // Widgets add lines for the session to `said`, which are carried out once everything is drawn.
   std::vector<std::string> said;
   const float bottom = drawBottom(said);
-  if (state.shown.scene) {
+  if (session_.choosesScene() && !session_.isReading()) drawScenes(shown_.recent, said);
+  if (session_.showsScene()) {
     if (shown_.lines) drawRayLines(state.rays, state.shown.request.camera, panel_.pointedAt());
     drawOver(bottom, said);
     inspectPointed();
@@ -165,7 +187,7 @@ float App::drawBottom(std::vector<std::string>& said) const {
   }
 
   const bool says = shown_.over == Over::panel || state.shown.debug;
-  return shown_.words && state.shown.scene && says ? drawStatus(state, bottom) : bottom;
+  return shown_.words && session_.showsScene() && says ? drawStatus(state, bottom) : bottom;
 }
 
 void App::drawOver(float bottom, std::vector<std::string>& said) {
@@ -174,10 +196,7 @@ void App::drawOver(float bottom, std::vector<std::string>& said) {
   if (shown_.over == Over::keys) drawKeys(bottom);
   if (shown_.over != Over::panel) return;
 
-  SceneChange change;
-  bool open = true;
-  panel_.draw(state, bottom, shown_, shown_.lines, open, said, change);
-  if (!open) shown_.over = Over::nothing;
+  const SceneChange change = panel_.draw(state, bottom, shown_, said);
   if (!change.settings.empty()) session_.edit(change.settings, change.edited);
 }
 

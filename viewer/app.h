@@ -9,17 +9,6 @@
 
 namespace whit::view {
 
-// At most one of these is open over the picture.
-enum class Over { nothing, panel, cameras, keys };
-
-// WindowState holds what the window shows besides the session's picture.
-struct WindowState : KeptSettings {
-  Over over = Over::nothing;
-  bool words = true;        // anything is written or drawn over the picture
-  bool lines = true;        // the rays of the clicked pixel are drawn into the scene
-  bool supersample = true;  // at rest; scripts compare pictures without
-};
-
 // Takes the place of keys, mouse and clock: tests play scripts.
 class ScriptedUser {
  public:
@@ -37,20 +26,14 @@ class ScriptedUser {
 
 class App {
  public:
-  // The constructor may run on another thread than the window's, which may only draw the window
-  // meanwhile.
-  App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Window& window,
-      const KeptSettings& kept, ScriptedUser* scripted = nullptr);
+  // Opens the window, and begins to read options.scene; without one the user chooses a scene there.
+  App(const ViewOptions& options, ScriptedUser* scripted);
 
-  // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
-  // scripted user does not survive them.
+  // Returns when the user quits. Errors are shown and survived; throws them where a scripted user
+  // does not survive them.
   void run();
-  ImageSize pictureSize() const {  // size that the scene has
-    const Scene& scene = session_.state().scene->scene;
-    return {scene.width, scene.height};
-  }
   bool waitsForReader() const { return session_.waitsForReader(); }  // at its end
-  // Returns the settings as the user left them, with the window's size as it was read.
+  // Returns the settings as the user left them.
   KeptSettings kept() const;
 
  private:
@@ -59,6 +42,9 @@ class App {
   double waitSeconds() const;
   bool worthDrawing(bool fresh, double seconds);
   double tick();
+  // The first scene is being read: scripts begin when it is there.
+  bool awaitsScene() const { return session_.choosesScene() && session_.isReading(); }
+  ImageSize sizeFor(const Scene& scene) const;
   void followScene();
   void tellErrors();
   void showPicture();
@@ -80,13 +66,16 @@ class App {
   void saveScene();
   void open(const std::string& file);
 
+  const ViewOptions& options_;
   ScriptedUser* scripted_;  // null: a person
-  Window& window_;
-  Session session_;
   WindowState shown_;
+  Display display_;
+  ImageSize fitted_;  // of the window, unless the user changes it
+  Window window_;
+  Session session_;
   Panel panel_;
   bool isHeld_ = false;        // some key was in the last frame
-  bool hints_ = true;          // the hint of the start is shown
+  bool hints_ = false;         // the hint of the start is shown
   bool savesPicture_ = false;  // as soon as it is complete
   // The edits of which the user was asked whether they may be lost.
   std::optional<std::vector<std::string>> askedAbout_;

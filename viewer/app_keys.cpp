@@ -11,6 +11,16 @@
 
 namespace whit::view {
 
+namespace {
+
+// Standard output has the commands of pictures as soon as they are asked for.
+void printLine(const std::string& text) {
+  std::printf("%s\n", text.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
 void App::handleInput() {
   Input& input = window_.input;
   const auto clicked = window_.takeClick();
@@ -20,8 +30,12 @@ void App::handleInput() {
   }
 
   move(input);
-  for (const std::string& key : input.pressed) act(lineOfKey(key));
-  if (clicked) click(*clicked);
+  const bool hasScene = !session_.choosesScene();
+  for (const std::string& key : input.pressed) {
+    // Before there is a scene, no other keys have anything to do.
+    if (hasScene || key == "Esc" || key == "F11") act(lineOfKey(key));
+  }
+  if (clicked && hasScene) click(*clicked);
   if (!input.dropped.empty()) act("open " + input.dropped.front());
 }
 
@@ -80,7 +94,7 @@ void App::close() {
 
   if (std::exchange(savesPicture_, false)) {
     session_.say("the picture is not saved");
-  } else if (shown_.over != Over::nothing) {
+  } else if (shown_.over != Over::nothing && !session_.choosesScene()) {
     shown_.over = Over::nothing;
   } else if (session_.state().rays.scene) {
     session_.act("forget");
@@ -113,8 +127,7 @@ void App::savePicture() {
 
   const TracedFrame& frame = session_.state().shown;
   const std::string files = view::savePicture(frame);
-  std::printf("%s\n", session_.command().c_str());
-  std::fflush(stdout);
+  printLine(session_.command());
 
   const Image& image = frame.film.image;
   session_.say(formatted("saved %s, %d x %d, %d samples a pixel", files.c_str(), image.width,
@@ -125,18 +138,16 @@ void App::copyCommand() {
   const std::string command = session_.command();
   if (command.empty()) return;
 
-  std::printf("%s\n", command.c_str());
-  std::fflush(stdout);
+  printLine(command);
   window_.setClipboard(command);
   session_.say("the command that makes this picture is printed, and in the clipboard");
 }
 
 void App::saveScene() {
-  if (!session_.state().shown.scene) return;
+  if (!session_.showsScene()) return;
 
   const SavedScene saved = session_.saveScene();
-  std::printf("%s\n", saved.command.c_str());
-  std::fflush(stdout);
+  printLine(saved.command);
   session_.say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
 
@@ -155,7 +166,8 @@ void App::click(const Input::Click& place) {
 // Opens a scene, or shows an image as the sky.
 void App::open(const std::string& file) {
   const std::string extension = extensionOf(file);
-  if (extension != ".hdr" && extension != ".exr") {
+  const bool isSky = extension == ".hdr" || extension == ".exr";
+  if (!isSky || session_.choosesScene()) {
     if (mayLoseEdits("once more opens the other scene")) session_.open(file);
     return;
   }

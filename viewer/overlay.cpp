@@ -15,44 +15,46 @@ namespace whit::view {
 
 namespace {
 
-constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
-constexpr ImU32 kBrightWhite = IM_COL32(255, 255, 255, 255), kDarkShade = IM_COL32(0, 0, 0, 190);
+constexpr float kPadding = 5;  // pixels of a label around its words
 
-// Draws words below the panels. The shade goes beyond the text by `margin`
-// and has round corners of that radius.
-void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
-               ImU32 shade = kShade) {
-  const float widest = ImGui::GetIO().DisplaySize.x - 20;
-  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, widest);
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-
-  list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
-                     ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
-  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, color, text, nullptr, widest);
+// Labels are words below the panels, in lines that fit into the window.
+float widestLabel() { return ImGui::GetIO().DisplaySize.x - 2 * kMargin; }
+ImVec2 labelSize(const std::string& text) {
+  return ImGui::CalcTextSize(text.c_str(), nullptr, false, widestLabel());
 }
 
-// Draws a bar of colors; colorOf(share) returns the color at a share of the way along it.
-template <typename ColorOf>
-void drawColorBar(const ImVec2& at, float width, ImDrawList& list, const ColorOf& colorOf) {
+// Draws a label on a shade that goes beyond it by kPadding and has round corners of that radius.
+void drawLabel(const ImVec2& at, const std::string& text) {
+  const ImVec2 size = labelSize(text);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+
+  list.AddRectFilled(ImVec2(at.x - kPadding, at.y - kPadding),
+                     ImVec2(at.x + size.x + kPadding, at.y + size.y + kPadding),
+                     IM_COL32(0, 0, 0, 190), kPadding);
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, IM_COL32_WHITE, text.c_str(), nullptr,
+               widestLabel());
+}
+
+// Draws a bar of the colors of a debug view.
+void drawColorBar(const ImVec2& at, float width, DebugView view) {
   constexpr int kSteps = 64;
   const float step = width / kSteps;
 
   for (int i = 0; i < kSteps; ++i) {
-    const auto c = colorOf((i + 0.5) / kSteps);
+    const auto c = colorAt(view, (i + 0.5) / kSteps);
     const float x = at.x + static_cast<float>(i) * step;
-    list.AddRectFilled(ImVec2(x, at.y), ImVec2(x + step, at.y + ImGui::GetFontSize()),
-                       IM_COL32(c[0], c[1], c[2], 255));
+    ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(x, at.y),
+                                                  ImVec2(x + step, at.y + ImGui::GetFontSize()),
+                                                  IM_COL32(c[0], c[1], c[2], 255));
   }
 }
 
-constexpr float kPanelAlpha = 0.82f;  // how much of the picture windows cover
 constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
 // Begins a window in the middle above `bottom`; the other function ends it and returns its top.
 void beginAbove(float bottom, const char* name) {
-  constexpr float kMargin = 10;
   ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, bottom - kMargin),
                           ImGuiCond_Always, ImVec2(0.5f, 1));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
@@ -100,32 +102,29 @@ std::string inspect(const TracedFrame& frame, const ImageSize& window,
 void drawInspection(const std::string& lines, double pointerX, double pointerY) {
   if (lines.empty()) return;
 
-  constexpr float kMargin = 4;
   const float away = ImGui::GetFontSize();
-  const ImVec2 size = ImGui::CalcTextSize(lines.c_str()), window = ImGui::GetIO().DisplaySize;
+  const ImVec2 size = labelSize(lines), window = ImGui::GetIO().DisplaySize;
 
   // The text is right of and below the pointer, or on the other side where the window ends.
   const auto beside = [&](double pointer, float length, float room) {
     const auto at = static_cast<float>(pointer);
-    const bool fits = at + away + length + kMargin <= room;
-    return std::max(fits ? at + away : at - away - length, kMargin);
+    const bool fits = at + away + length + kPadding <= room;
+    return std::max(fits ? at + away : at - away - length, kPadding);
   };
-  drawLabel(ImVec2(beside(pointerX, size.x, window.x), beside(pointerY, size.y, window.y)),
-            lines.c_str(), kMargin, kBrightWhite, kDarkShade);
+  drawLabel(ImVec2(beside(pointerX, size.x, window.x), beside(pointerY, size.y, window.y)), lines);
 }
 
 float drawStatus(const ViewState& state, float bottom) {
-  constexpr float kMargin = 10, kPadding = 4;
   const TracedFrame& frame = state.shown;
-  const float line = ImGui::GetFontSize() + 2 * kPadding, right = ImGui::GetIO().DisplaySize.x;
+  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
 
-  // Lines are aligned to the right and stacked upwards; draw() returns the left end of its line.
+  // Labels are aligned to the right and stacked upwards; draw() returns the left end of its label.
   float top = bottom - kMargin;
   const auto draw = [&](const std::string& text) {
-    top -= line;
-    const ImVec2 at(right - kMargin - ImGui::CalcTextSize(text.c_str()).x, top + kPadding);
-    drawLabel(at, text.c_str(), kPadding);
-    return at.x;
+    const ImVec2 size = labelSize(text);
+    top -= size.y + 2 * kPadding;
+    drawLabel(ImVec2(right - size.x, top + kPadding), text);
+    return right - size.x;
   };
 
   draw(statusText(state));
@@ -137,20 +136,15 @@ float drawStatus(const ViewState& state, float bottom) {
   const float left = draw(legend.empty() ? name : name + ": " + legend);
   if (legend.empty()) return top;
 
-  top -= line;
-  drawColorBar(ImVec2(left, top + kPadding), right - kMargin - left,
-               *ImGui::GetBackgroundDrawList(),
-               [&](double share) { return colorAt(frame.request.view, share); });
+  top -= ImGui::GetFontSize() + 2 * kPadding;
+  drawColorBar(ImVec2(left, top + kPadding), right - left, frame.request.view);
   return top;
 }
 
 float drawMessage(const std::string& message, float bottom) {
-  constexpr float kMargin = 10, kPadding = 6;
-  const float window = ImGui::GetIO().DisplaySize.x, widest = window - 2 * kMargin;
-  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, widest);
+  const ImVec2 size = labelSize(message);
   const float top = bottom - kMargin - kPadding - size.y;
-  drawLabel(ImVec2((window - size.x) / 2, top), message.c_str(), kPadding, kBrightWhite,
-            kDarkShade);
+  drawLabel(ImVec2((ImGui::GetIO().DisplaySize.x - size.x) / 2, top), message);
   return top - kPadding;
 }
 
@@ -163,8 +157,29 @@ float drawError(const std::string& error, float bottom, std::vector<std::string>
   return endAbove();
 }
 
+void drawScenes(const std::vector<std::string>& recent, std::vector<std::string>& said) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float margin = ImGui::GetFontSize(), room = std::max(window.y - 6 * margin, margin);
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, margin), ImGuiCond_Always, ImVec2(0.5f, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, room));
+
+  ImGui::Begin("scenes", nullptr, kBare & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::TextUnformatted("Choose a scene, or drop a file here");
+  const auto draw = [&](const char* title, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    ImGui::TextDisabled("%s", title);
+    ImGui::PushID(title);  // both lists may have the same name
+    for (const std::string& name : names) {
+      if (ImGui::Selectable(name.c_str())) said.push_back("open " + name);
+    }
+    ImGui::PopID();
+  };
+  draw("opened lately", recent);
+  draw("shipped", shippedNames());
+  ImGui::End();
+}
+
 void drawCameras(const ViewState& state, std::vector<std::string>& said) {
-  constexpr float kMargin = 10;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(window.x - kMargin, kMargin), ImGuiCond_Always, ImVec2(1, 0));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, window.y - 2 * kMargin));
@@ -182,7 +197,6 @@ void drawCameras(const ViewState& state, std::vector<std::string>& said) {
 }
 
 void drawKeys(float bottom) {
-  constexpr float kMargin = 10;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float width = std::min(58 * ImGui::GetFontSize(), window.x - 2 * kMargin);
   ImGui::SetNextWindowPos(ImVec2(window.x / 2, kMargin), ImGuiCond_Always, ImVec2(0.5f, 0));

@@ -12,9 +12,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr float kMargin = 10;                   // pixels
 constexpr float kWidth = 32, kLeastWidth = 22;  // heights of the font
-constexpr float kAlpha = 0.82f;                 // how much of the picture the panel covers
 
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
@@ -130,37 +128,41 @@ bool Panel::place(float bottom) {
   return left_ != left || top_ != top;
 }
 
-void Panel::drawTab(const ViewState& state, KeptSettings& kept, bool& lines,
-                    std::vector<std::string>& said, SceneChange& change) {
+SceneChange Panel::drawTab(const ViewState& state, WindowState& shown,
+                           std::vector<std::string>& said) {
+  SceneChange change;
   pointedAt_ = kNoCounterpart;
-  if (kept.tab == "rays") {
-    pointedAt_ = drawRayTree(state, lines, said);
-  } else if (kept.tab == "scene") {
-    drawFiles(kept.recent, said);
+  if (shown.tab == "rays") {
+    pointedAt_ = drawRayTree(state, shown.lines, said);
+  } else if (shown.tab == "scene") {
+    drawFiles(shown.recent, said);
     change.edited = state.edited;
     change.settings = drawScene(state.ownSky, unfolds_, change.edited);
-  } else if (kept.tab == "time") {
+  } else if (shown.tab == "time") {
     drawTime(state, said);
   } else {
     drawOptions(state, said);
   }
+  return change;
 }
 
-void Panel::draw(const ViewState& state, float bottom, KeptSettings& kept, bool& lines, bool& open,
-                 std::vector<std::string>& said, SceneChange& change) {
+SceneChange Panel::draw(const ViewState& state, float bottom, WindowState& shown,
+                        std::vector<std::string>& said) {
   if (std::exchange(selections_, state.selections) != state.selections) unfolds_ = state.selected;
   const bool moves = place(bottom);
   ImGui::SetNextWindowPos(ImVec2(left_, top_), moves ? ImGuiCond_Always : ImGuiCond_Appearing);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height_));
-  ImGui::SetNextWindowBgAlpha(kAlpha);
+  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  SceneChange change;
+  bool open = true;
   if (ImGui::Begin("whit", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
-    drawTabs(kept.tab);
+    drawTabs(shown.tab);
 
     // The tab is as high as its contents, and scrolls if the window is lower.
     const float line = ImGui::GetFontSize();
     const float room = top_ + height_ - ImGui::GetCursorScreenPos().y - line;
-    ImGui::BeginChild("tab", ImVec2(0, std::max(std::min(room, contents_), line)));
-    drawTab(state, kept, lines, said, change);
+    ImGui::BeginChild(shown.tab.c_str(), ImVec2(0, std::max(std::min(room, contents_), line)));
+    change = drawTab(state, shown, said);
     contents_ = ImGui::GetCursorPosY();
     ImGui::EndChild();
   }
@@ -169,6 +171,8 @@ void Panel::draw(const ViewState& state, float bottom, KeptSettings& kept, bool&
   left_ = ImGui::GetWindowPos().x;
   top_ = ImGui::GetWindowPos().y;
   ImGui::End();
+  if (!open) shown.over = Over::nothing;
+  return change;
 }
 
 }  // namespace whit::view

@@ -12,7 +12,20 @@
 
 namespace whit::view {
 
+inline constexpr float kMargin = 10;         // pixels beside windows and labels
+inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture windows cover
 inline constexpr std::array kPanelTabs{"picture", "rays", "scene", "time"};
+
+// At most one of these is open over the picture.
+enum class Over { nothing, panel, cameras, keys };
+
+// WindowState holds what the window shows besides the session's picture.
+struct WindowState : KeptSettings {
+  Over over = Over::nothing;
+  bool words = true;        // anything is written or drawn over the picture
+  bool lines = true;        // the rays of the clicked pixel are drawn into the scene
+  bool supersample = true;  // at rest; scripts compare pictures without
+};
 
 // How the user has changed the scene: the settings, and the scene with them.
 struct SceneChange {
@@ -25,17 +38,15 @@ class Panel {
   // The panel moves aside if it would cover this place of the window.
   void keepClear(double x, double y) { clear_ = {static_cast<float>(x), static_cast<float>(y)}; }
 
-  // Draws the panel above `bottom`, with the tab kept.tab. `state` must hold a picture. `lines`
-  // says whether rays are drawn into the scene.
-  void draw(const ViewState& state, float bottom, KeptSettings& kept, bool& lines, bool& open,
-            std::vector<std::string>& said, SceneChange& change);
+  // Draws the panel above `bottom`, with the tab shown.tab. `state` must hold a picture.
+  SceneChange draw(const ViewState& state, float bottom, WindowState& shown,
+                   std::vector<std::string>& said);
   // Returns the ray that the pointer is on in the list, or kNoCounterpart.
   std::size_t pointedAt() const { return pointedAt_; }
 
  private:
   bool place(float bottom);
-  void drawTab(const ViewState& state, KeptSettings& kept, bool& lines,
-               std::vector<std::string>& said, SceneChange& change);
+  SceneChange drawTab(const ViewState& state, WindowState& shown, std::vector<std::string>& said);
 
   struct Place {
     float x = 0, y = 0;
@@ -74,6 +85,8 @@ float drawMessage(const std::string& message, float bottom);
 float drawError(const std::string& error, float bottom, std::vector<std::string>& said);
 // The sharpness of the picture, the frame rate and the meaning of a view's colors, at the right.
 float drawStatus(const ViewState& state, float bottom);
+// The scenes to choose from: those that were open lately, and the shipped ones.
+void drawScenes(const std::vector<std::string>& recent, std::vector<std::string>& said);
 // The list of the scene's cameras.
 void drawCameras(const ViewState& state, std::vector<std::string>& said);
 // The list of keys.

@@ -1,12 +1,10 @@
 // The command line of whit-view.
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include "command_line/help_text.h"
 #include "core/error.h"
 #include "viewer/app.h"
-#include "viewer/start_screen.h"
 
 namespace whit::view {
 
@@ -24,14 +22,6 @@ cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scen
       "a scene file, a model, or the name of a shipped scene (default: choose in the window)", 0, 1,
       scenes);
   return list;
-}
-
-// Returns the largest size with the picture's aspect that fits into `room`.
-ImageSize fitted(const ImageSize& picture, const ImageSize& room) {
-  const double scale = std::min(static_cast<double>(room.width) / picture.width,
-                                static_cast<double>(room.height) / picture.height);
-  const auto scaled = [&](int side) { return std::max(static_cast<int>(side * scale), 1); };
-  return {scaled(picture.width), scaled(picture.height)};
 }
 
 const cli::ManPage kPage{"whit-view",
@@ -84,30 +74,13 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
 
   if (!scenes.empty()) options.scene = scenes[0];
 
-  // The picture's size is known only when the scene has been read; until then the window has a
-  // default size.
-  const KeptSettings kept = readKeptSettings();
-  const Display display;
-  const ImageSize room = Display::room(kept.window);
-  const auto sizeFor = [&](const ImageSize& picture) {
-    return options.common.render.size.value_or(fitted(picture, room));
-  };
-  Window window("whit", sizeFor({Scene().width, Scene().height}));
-
-  const std::unique_ptr<App> app = start(options, window, kept, scripted);
-  if (!app) return 0;
-  const ImageSize opened = sizeFor(app->pictureSize());
-  if (opened != window.size()) window.resize(opened);
-  app->run();
-
-  // A size that the user has not chosen is not kept, so that the next scene is fitted anew.
-  KeptSettings left = app->kept();
-  if (!window.isFullScreen() && window.size() != opened) left.window = window.size();
-  writeKeptSettings(left);
+  App app(options, scripted);
+  app.run();
+  writeKeptSettings(app.kept());
 
   // The thread that reads a scene looks only now and then whether it was given up, which may take
   // it many seconds. Nothing that it holds has to be saved.
-  if (app->waitsForReader()) {
+  if (app.waitsForReader()) {
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     std::quick_exit(lost ? static_cast<int>(ExitStatus::io) : 0);
   }

@@ -1,4 +1,5 @@
 #include "viewer/panel.h"
+#include "viewer/window.h"
 
 #include <imgui.h>
 
@@ -133,8 +134,8 @@ class RayTreeTab {
   std::size_t pointedAt_ = kNoCounterpart;
 };
 
-void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width) {
-  constexpr double kDash = 5, kPeriod = 9;  // pixels
+void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width, double scale) {
+  const double dash = 5 * scale, period = 9 * scale;  // pixels
   const double length = std::hypot(l.x2 - l.x1, l.y2 - l.y1);
   if (!(length > 0)) return;
 
@@ -143,9 +144,9 @@ void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width)
     return ImVec2(static_cast<float>(l.x1 + way * dx), static_cast<float>(l.y1 + way * dy));
   };
 
-  for (int dash = 0; dash * kPeriod < length; ++dash) {
-    const double begin = dash * kPeriod;
-    list.AddLine(at(begin), at(std::min(begin + kDash, length)), color, width);
+  for (int i = 0; i * period < length; ++i) {
+    const double begin = i * period;
+    list.AddLine(at(begin), at(std::min(begin + dash, length)), color, width);
   }
 }
 
@@ -166,24 +167,26 @@ void drawRayLines(const RayPick& pick, const Camera& camera, std::size_t pointed
 
   const LineView seen(camera, static_cast<int>(window.x), static_cast<int>(window.y));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float scale = ImGui::GetFontSize() / kFontHeight;
 
   const auto draw = [&](const RayLine& line, double extra) {
     auto at = seen.see(line.from, line.to);
     if (!at || !clip(*at, double{window.x}, double{window.y})) return;
 
-    const auto width = static_cast<float>(line.width + extra);
+    const auto width = static_cast<float>(line.width + extra) * scale;
     const ImU32 color = packedColor(line.look);
 
     if (isDashed(line.look)) {
-      drawDashed(list, *at, color, width + 0.5f);
+      drawDashed(list, *at, color, width + 0.5f * scale, scale);
       return;
     }
 
     const ImVec2 from(static_cast<float>(at->x1), static_cast<float>(at->y1));
     const ImVec2 to(static_cast<float>(at->x2), static_cast<float>(at->y2));
-    list.AddLine(from, to, IM_COL32(0, 0, 0, 120), width + 2);  // legible on bright ground, too
+    list.AddLine(from, to, IM_COL32(0, 0, 0, 120),
+                 width + 2 * scale);  // legible on bright ground, too
     list.AddLine(from, to, color, width);
-    list.AddCircleFilled(to, width + 1, color);
+    list.AddCircleFilled(to, width + scale, color);
   };
   for (const RayLine& line : pick.lines) draw(line, line.node == pointedAt ? 3 : 0);
 }

@@ -39,7 +39,7 @@ shot() {
 sharp=("wait 30 frames" "wait sharp")
 gone=("wait 250 frames" "wait sharp")  # messages
 shot viewer atrium 800x450 "asked" "panel time" "key W 0.2" "${sharp[@]}" "${gone[@]}"
-shot viewer-knobs matte 960x600 "asked" "panel time" "${sharp[@]}" "click 100 76" "${sharp[@]}" \
+shot viewer-knobs matte 960x600 "asked" "key Shift" "panel time" "${sharp[@]}" "click 100 76" "${sharp[@]}" \
   "${gone[@]}"
 shot viewer-tree "whitted --depth 7" 960x600 "asked" "${sharp[@]}" "click 480 333" "${sharp[@]}" \
   "mouse left 200 -60" "${sharp[@]}" "${gone[@]}"

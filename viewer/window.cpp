@@ -65,13 +65,12 @@ constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
 
 // Loads a font at the display's scale, or enlarges Dear ImGui's own where the system has none.
 void setFont(float scale) {
-  constexpr float kHeight = 13;  // pixels at scale 1
   ImGuiIO& io = ImGui::GetIO();
   for (const char* file : kFonts) {
     std::error_code none;
     if (!std::filesystem::is_regular_file(file, none)) continue;
 
-    if (io.Fonts->AddFontFromFileTTF(file, std::round(kHeight * scale))) return;
+    if (io.Fonts->AddFontFromFileTTF(file, std::round(kFontHeight * scale))) return;
   }
   io.FontGlobalScale = scale;
 }

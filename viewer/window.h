@@ -43,6 +43,8 @@ struct Input : Drags {
   }
 };
 
+inline constexpr float kFontHeight = 13;  // pixels on a screen of the usual density
+
 // Returns the shares of a window's width and height that are filled by a picture that was made for
 // a window of another size and keeps its shape.
 std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& window);

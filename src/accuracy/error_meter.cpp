@@ -22,7 +22,7 @@ double ulpsApart(const Rgb& a, const Rgb& b) {
   if (!std::isfinite(largest)) return 0;
 
   const float next = std::nextafter(largest, std::numeric_limits<float>::max());
-  return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
+  return double{maxComponent(abs(a - b))} / double{next - largest};
 }
 
 ImageDifference noDifference() {

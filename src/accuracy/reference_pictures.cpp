@@ -82,7 +82,7 @@ TransportPicture renderTransport(const Scene& scene, const Camera& camera,
   double ms = 0;
 
   for (int pass = 0; pass < kTransportPasses; ++pass) {
-    renderer.setSeed(static_cast<std::uint32_t>(pass));
+    renderer.setSeed(pass);
     ms += renderer.render(camera, film).frameMs;
     passes.add(film.image);
     reportProgress(progress, "all transport", static_cast<double>(pass + 1) / kTransportPasses);

@@ -94,7 +94,7 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
 
   row["options"] = options;
   row["reference_samples"] = sweep.referenceSamples;
-  row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
+  row["reference_cutoff"] = double{sweep.referenceCutoff};
   row["truth"] = entryOf(kTruthNames, sweep.truth());
 
   // The columns of the picture with all transport are null if Whitted's model is the truth.
@@ -130,8 +130,7 @@ std::string referenceText(const SceneSweep& sweep) {
   return formatted(
       "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
       "%.1f s",
-      kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
-      sweep.referenceMs / 1e3);
+      kDepthLimit, double{sweep.referenceCutoff}, sweep.referenceSamples, sweep.referenceMs / 1e3);
 }
 
 Json pointsJson(const SceneSweep& sweep, const Json& facts) {
@@ -316,7 +315,7 @@ std::string transportText(const SceneSweep& sweep) {
   std::string text = formatted(
       "truth: all transport, by packets, depth %d, cutoff %g, %d samples a pixel in %d independent "
       "passes, %.1f s; standard error of a pixel, root mean square: %.2e",
-      kDepthLimit, static_cast<double>(kTransportCutoff), t.samples, t.passes, t.renderMs / 1e3,
+      kDepthLimit, double{kTransportCutoff}, t.samples, t.passes, t.renderMs / 1e3,
       t.standardError);
   if (t.meanRadiance > 0)
     text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);

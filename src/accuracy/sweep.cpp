@@ -199,7 +199,7 @@ SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const Sweep
   std::map<std::string, std::string> unmeasured;  // label and reason
   const std::vector<std::size_t> order = chooseOrder(sweep.points, settings);
   const Stopwatch clock;  // the pictures that points are measured against do not count
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (const auto k : indices(order)) {
     Point& point = sweep.points[order[k]];
     const std::size_t remaining = order.size() - k;
     reportProgress(progress, sweep.scene + ": " + point.label(),

@@ -13,12 +13,12 @@ namespace {
 // The number of values that can be left out at either end. The median of the distribution lies
 // beyond the remaining values with P(Binomial(n, 1/2) <= leftOut) at either end, and half of the
 // error that the confidence allows is available for each.
-std::size_t valuesLeftOut(std::size_t n) {
+std::size_t valuesLeftOut(std::size_t n, double confidence) {
   // Logarithms, because 2^-n underflows for the thousands of frames of a baseline.
   double logTerm = -static_cast<double>(n) * std::log(2.0), below = 0;  // P(X = k), P(X < k)
   std::size_t k = 0;
 
-  while (below + std::exp(logTerm) <= (1 - kMedianConfidence) / 2) {
+  while (below + std::exp(logTerm) <= (1 - confidence) / 2) {
     below += std::exp(logTerm);
     // The recurrence of the binomial coefficients leads from P(X = k) to P(X = k + 1).
     logTerm += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
@@ -29,10 +29,10 @@ std::size_t valuesLeftOut(std::size_t n) {
 
 }  // namespace
 
-Interval medianInterval(std::vector<double> values) {
+Interval medianInterval(std::vector<double> values, double confidence) {
   if (values.empty()) return {};
   std::ranges::sort(values);
-  const std::size_t leftOut = valuesLeftOut(values.size());
+  const std::size_t leftOut = valuesLeftOut(values.size(), confidence);
   return {values[leftOut], values[values.size() - 1 - leftOut]};
 }
 

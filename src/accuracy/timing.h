@@ -39,11 +39,11 @@ struct Interval {
 inline constexpr double kMedianConfidence = 0.9;
 
 // The narrowest interval between two order statistics of the values, symmetric about the middle,
-// that holds the median of the distribution with kMedianConfidence at least, whatever the
+// that holds the median of the distribution with this confidence at least, whatever the
 // distribution is (the inverted sign test: Conover, Practical Nonparametric Statistics, 1999,
-// section 3.2). It is the whole range of fewer than five values, which is less certain, and 0 to 0
-// of none.
-Interval medianInterval(std::vector<double> values);
+// section 3.2). It is the whole range of values that are too few for the confidence, and 0 to 0 of
+// none.
+Interval medianInterval(std::vector<double> values, double confidence = kMedianConfidence);
 
 // More rounds do not help a time that is still noisy.
 inline constexpr int kMostRounds = 25;

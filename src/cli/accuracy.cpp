@@ -80,7 +80,7 @@ void checkJob(AccuracyJob& job) {
   if (!job.knobs.empty()) settings.knobs = split(job.knobs, ',');
   chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
-  settings.seed = static_cast<std::uint32_t>(job.seed);
+  settings.seed = job.seed;
   makeFolder(job.out);
 }
 

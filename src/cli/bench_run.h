@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/event_counters.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "engine/engine.h"
 #include "inspect/floor.h"
@@ -43,9 +44,7 @@ class BenchRun {
 
     const std::vector<double> after = readCounters(processorCounters());
     summary_.events.resize(std::min(before.size(), after.size()));
-    for (std::size_t i = 0; i < summary_.events.size(); ++i) {
-      summary_.events[i] += after[i] - before[i];
-    }
+    for (const auto i : indices(summary_.events)) summary_.events[i] += after[i] - before[i];
 
     summary_.imageHash = digestOf(film_.image);
     if (floor)

@@ -1,9 +1,9 @@
 #include "cli/effects_report.h"
 
-#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/timing.h"
 #include "core/index.h"
 #include "core/text.h"
 #include "output/json_report.h"
@@ -23,7 +23,8 @@ void putAdded(Json& row, const std::string& key, const RunSummary& run, const Ru
     added.push_back(std::invoke(of, run.frames[i]) - base);
   }
 
-  const Interval known = medianInterval(added);
+  constexpr double kConfidence = 0.95;
+  const accuracy::Interval known = accuracy::medianInterval(added, kConfidence);
   const bool isKnown = added.size() > 1;
   row[key] = quantile(added, 0.5);
   row[key + "_low"] = isKnown ? Json(known.low) : Json(nullptr);

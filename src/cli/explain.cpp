@@ -7,14 +7,12 @@
 #include "cli/commands.h"
 #include "cli/lesson.h"
 #include "command_line/progress_bar.h"
-#include "core/display.h"
 #include "core/error.h"
 #include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "engine/engine.h"
 #include "inspect/ray_tree.h"
-#include "io/files.h"
 #include "io/image/image_file.h"
 #include "output/explained_rays.h"
 #include "output/image_output.h"
@@ -368,9 +366,9 @@ int explainCommand(const Words& words) {
                     explainRays(renderer, camera, film, place.x, place.y), samplesOfPicture};
   if (!job.svg.empty() || !job.html.empty()) {
     const std::string diagram = drawDiagram(job, e, renderer, camera);
-    if (!job.svg.empty()) writeTextFile(job.svg, diagram);
+    if (!job.svg.empty()) writeReport(job.svg, diagram);
     if (!job.html.empty()) {
-      writeTextFile(job.html, lessonPage(job, e, diagram, renderer, camera, film));
+      writeReport(job.html, lessonPage(job, e, diagram, renderer, camera, film));
     }
   }
   if (!job.json.empty()) {

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <functional>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -291,7 +290,7 @@ void printWrittenImages(const ImageWriter& writer, const RenderJob& job, double 
     what += formatted(", %dx%d", image.windowWidth(), image.windowHeight());
   }
   if (job.common.render.exposure.automatic) {
-    what += formatted(", exposure %g EV", static_cast<double>(writer.exposure().ev));
+    what += formatted(", exposure %g EV", double{writer.exposure().ev});
   }
 
   std::fprintf(stderr, "wrote %s, %.1f s\n", what.c_str(), seconds);

@@ -12,7 +12,6 @@
 #include "io/files.h"
 #include "io/image/image_file.h"
 #include "output/film_pipe.h"
-#include "output/json_report.h"
 
 namespace whit::cli {
 namespace {

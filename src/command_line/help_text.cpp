@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <map>
 #include <regex>
 
@@ -150,8 +149,7 @@ std::string helpText(const std::string& usage, const std::string& summary, const
     return tier == HelpTier::all || e.everyday;
   };
   auto groups = groupsOf(list, isListed);
-  const auto left =
-      list.entries.size() - static_cast<std::size_t>(std::ranges::count_if(list.entries, isListed));
+  const std::size_t left = list.entries.size() - std::ranges::count_if(list.entries, isListed);
 
   groups.push_back({"Help",
                     {{"-h,--help", "the options of every day"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <ranges>
@@ -13,6 +14,13 @@ namespace whit {
 template <typename Table, typename Index>
 constexpr decltype(auto) entryOf(Table& table, Index index) {
   return table[static_cast<std::size_t>(index)];
+}
+
+// The number of entries. Vertices, triangles, materials and nodes are counted by 32 bits, so that
+// it is also the number that the next entry gets.
+template <typename Table>
+constexpr std::uint32_t size32(const Table& table) {
+  return static_cast<std::uint32_t>(std::size(table));
 }
 
 // True if the projection of an entry equals `value`.

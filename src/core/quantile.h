@@ -21,20 +21,4 @@ inline double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-// Bounds between which the true median lies with a probability of 95 % or more (those of the sign
-// test, by the normal approximation of the binomial distribution); of fewer than six values the
-// least and the largest. Both are 0 for no values.
-struct Interval {
-  double low = 0, high = 0;
-};
-inline Interval medianInterval(std::vector<double> values) {
-  if (values.empty()) return {};
-
-  std::ranges::sort(values);
-  const auto n = static_cast<double>(values.size());
-  const double rank = std::max(std::floor((n - 1.96 * std::sqrt(n)) / 2), 1.0);
-  const auto below = static_cast<std::size_t>(rank) - 1;
-  return {values[below], values[values.size() - 1 - below]};
-}
-
 }  // namespace whit

@@ -123,18 +123,18 @@ bool hitsNothing(DebugView view, const WatchedPixel& pixel) {
 }
 
 double amountOf(const WatchedPixel& pixel, int samples) {
-  return static_cast<double>(pixel.sum.x) / (pixel.count > 0 ? pixel.count : samples);
+  return double{pixel.sum.x} / (pixel.count > 0 ? pixel.count : samples);
 }
 
 std::uint8_t codeOf(float x) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(static_cast<double>(x), 0.0, 1.0)));
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(double{x}, 0.0, 1.0)));
 }
 
 std::array<std::uint8_t, 3> meanColor(DebugView view, const WatchedPixel& pixel) {
   const Rgb c = pixel.sum * (1 / static_cast<float>(std::max(pixel.count, 1.0)));
   const auto code = [&](float x) {
     const bool linear = view == DebugView::albedo;
-    return linear ? static_cast<std::uint8_t>(srgbCode(static_cast<double>(x))) : codeOf(x);
+    return linear ? static_cast<std::uint8_t>(srgbCode(double{x})) : codeOf(x);
   };
   return {code(c.x), code(c.y), code(c.z)};
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -40,7 +39,7 @@ void addScaled(float* sum, const float* values, float weight, int count) {
 Plane filterAlongX(const Plane& plane, const Taps& taps) {
   const int radius = static_cast<int>(taps.size() / 2);
   Plane out(plane.width, plane.height);
-  std::vector<float> padded(static_cast<std::size_t>(plane.width) + 2 * taps.size());
+  std::vector<float> padded(plane.width + 2 * taps.size());
 
   for (int y = 0; y < plane.height; ++y) {
     const float* row = plane.row(y);
@@ -214,8 +213,8 @@ float hyAb(const Vec3f& p, const Vec3f& q) {
 // reach, the rest.
 float redistribute(float distance) {
   static const double largest =
-      std::pow(static_cast<double>(hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))), kColorExponent);
-  const double powered = std::pow(static_cast<double>(distance), kColorExponent);
+      std::pow(double{hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))}, kColorExponent);
+  const double powered = std::pow(double{distance}, kColorExponent);
   const double knee = kKnee * largest;
   return static_cast<float>(powered < knee ? powered * kKneeError / knee
                                            : kKneeError + (powered - knee) / (largest - knee) *

@@ -66,6 +66,7 @@ double replay(const Accel& accel, const RayStream& stream) {
 
   // Rays are only read.
   const auto column = [&](std::size_t i) { return const_cast<float*>(stream.columns[i].data()); };
+  const Columns3 org{column(0), column(1), column(2)}, dir{column(3), column(4), column(5)};
 
   if (stream.anyHit) {
     // Each any-hit ray has a result slot of its own.
@@ -73,10 +74,7 @@ double replay(const Accel& accel, const RayStream& stream) {
     std::iota(slots.begin(), slots.end(), 0u);
     const ColumnStore<UnshadowedColumns> results(stream.count, {});
     c.unshadowed = *results;
-    c.shadows = {{column(0), column(1), column(2)},
-                 {column(3), column(4), column(5)},
-                 column(6),
-                 slots.data()};
+    c.shadows = {org, dir, column(6), slots.data()};
     c.shadowCount = stream.count;
 
     accel.checkShadows(c);
@@ -86,7 +84,7 @@ double replay(const Accel& accel, const RayStream& stream) {
   // Closest-hit rays form a single segment.
   const ColumnStore<HitColumns> results(stream.count, {});
   c.hits = *results;
-  c.rays = {{column(0), column(1), column(2)}, {column(3), column(4), column(5)}};
+  c.rays = {org, dir};
   c.n = stream.count;
   c.segments[0] = {RayKind::primary, 0, c.n};
   c.segmentCount = 1;

@@ -1,6 +1,5 @@
 #include "inspect/knobs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

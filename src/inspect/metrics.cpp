@@ -31,8 +31,7 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
 
     values += 3;
     for (int c = 0; c < 3; ++c) {
-      const double x = static_cast<double>(a.pixels[i][c]);
-      const double reference = static_cast<double>(b.pixels[i][c]);
+      const double x = double{a.pixels[i][c]}, reference = double{b.pixels[i][c]};
       const double square = (x - reference) * (x - reference);
       squares += square;
       relative += square / (reference * reference + kRelativeEpsilon);
@@ -93,9 +92,9 @@ void checkComparable(const Image& a, const Image& b) {
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
   std::vector<std::uint8_t> differences(a.rgba.size() / 4);
 
-  for (std::size_t i = 0; i < differences.size(); ++i) {
+  for (const auto i : indices(differences)) {
     int largest = 0;
-    for (std::size_t c = 0; c < 3; ++c)
+    for (const auto c : indices(3))
       largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
     differences[i] = static_cast<std::uint8_t>(largest);
   }

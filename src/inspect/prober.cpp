@@ -54,7 +54,7 @@ void Prober::chooseBlocks(int side, double count) {
 
   // Every worker gets at least two lists if there are enough blocks, so that the work is
   // balanced.
-  const auto lists = 2 * static_cast<std::size_t>(renderer_.machine().threads);
+  const std::size_t lists = 2 * renderer_.machine().threads;
   const std::size_t most = std::max<std::size_t>(kListPixels / blocks_[0].size(), 1);
   const std::size_t together = std::clamp<std::size_t>(blocks_.size() / lists, 1, most);
 

@@ -232,13 +232,13 @@ bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
 }
 
 // The impulses that the surface would have sent, according to the reference.
-struct Wanted {
+struct ReferenceImpulses {
   reference::Impulses impulses;
   reference::Crossing crossing;
   // The diffuse lobe sends samples on. All samples of a glossy lobe may end in the surface.
   bool scattered = false;
 
-  bool isWanted(RayKind kind) const {
+  bool has(RayKind kind) const {
     return maxComponent(impulses.of(kind).weight) > 0 || (kind == kDiffuseLobe.kind && scattered);
   }
   // No ray is refracted where the media would have one.
@@ -246,8 +246,8 @@ struct Wanted {
     return kind == RayKind::refraction && crossing.dielectric && !crossing.hidden;
   }
 };
-Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
-                const RayNode& n) {
+ReferenceImpulses referenceImpulses(const Scene& scene, const Plan& plan,
+                                    const RenderOptions& options, const RayNode& n) {
   // The reference computes the surface again from the hit that the tree holds.
   const Ray ray{n.origin, n.direction};
   const Candidate candidate{n.triangle, n.instance, n.u, n.v};
@@ -275,12 +275,12 @@ void explainEnds(const Renderer& renderer, RayTree& tree) {
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
 
-    const Wanted wanted = wantedOf(renderer.scene(), renderer.plan(), options, n);
+    const ReferenceImpulses sent = referenceImpulses(renderer.scene(), renderer.plan(), options, n);
     for (const RayKind kind : kImpulseKinds) {
       if (sends(tree, n, kind)) continue;
-      if (wanted.isWanted(kind)) {
+      if (sent.has(kind)) {
         n.endOf(kind) = endOf(options, n, tree.narrowed);
-      } else if (wanted.isReflectedTotally(kind)) {
+      } else if (sent.isReflectedTotally(kind)) {
         n.endOf(kind) = PathEnd::totalReflection;
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.h"
 #include "inspect/metrics.h"
 #include "inspect/reference_frame.h"
 
@@ -32,7 +33,7 @@ void showDifference(const Film& reference, Film& film, DebugPicture& picture) {
   const std::vector<std::uint8_t> codes = codeDifferences(film.display, reference.display);
   picture.pixels.resize(codes.size());
   double sum = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
+  for (const auto i : indices(codes)) {
     const int code = codes[i];
     picture.largest = std::max<double>(picture.largest, code);
     sum += code;

@@ -60,12 +60,12 @@ double ulpOf(double magnitude) {
   // too: workers flush what is smaller to zero.
   constexpr float least = 1e-25f;
   const float at = std::max(m, least);
-  return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
+  return double{std::nextafter(at, std::numeric_limits<float>::infinity()) - at};
 }
 
 // The place of a row, and the row of the scalar reference.
 template <typename Row>
-struct Place {
+struct RowContext {
   const reference::World& world;
   const Chunk& chunk;
   std::size_t slot;
@@ -81,39 +81,39 @@ struct Quantity {
   std::string name;
   std::vector<std::string> columns;
   double limit;
-  double (*scale)(const Place<Row>&) = nullptr;  // null: 0 everywhere
+  double (*scale)(const RowContext<Row>&) = nullptr;  // null: 0 everywhere
 };
 
 template <typename Row>
-double byOne(const Place<Row>&) {
+double byOne(const RowContext<Row>&) {
   return 1;
 }
 
 // The shadow slot is an index and is not compared.
-double byNothing(const Place<ShadowRow>&) { return kNotHere; }
+double byNothing(const RowContext<ShadowRow>&) { return kNotHere; }
 
-double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.eye)); }
+double byEye(const RowContext<RayRow>& p) { return maxComponent(abs(p.world.camera.eye)); }
 
 // Near the critical angle the root amplifies rounding without bound; there the weight of the
 // refracted ray goes to zero with it.
-template <double (*kScale)(const Place<RayRow>&)>
-double whereItCounts(const Place<RayRow>& p) {
+template <double (*kScale)(const RowContext<RayRow>&)>
+double whereItCounts(const RowContext<RayRow>& p) {
   const double largest = maxComponent(p.scalar.weight);
   return largest < 0.05 ? kNotHere : kScale(p);
 }
-double byItself(const Place<RayRow>&) { return 0; }
+double byItself(const RowContext<RayRow>&) { return 0; }
 
-double cosineOf(const Place<SurfelRow>& p) {
+double cosineOf(const RowContext<SurfelRow>& p) {
   const SurfelRow& s = p.scalar;
   return std::fabs(dot(s.ng, rayOf(p.chunk, p.slot).direction));
 }
 // A surface seen edge on may be entered in one precision and left in the other.
-template <double (*kScale)(const Place<SurfelRow>&)>
-double notEdgeOn(const Place<SurfelRow>& p) {
+template <double (*kScale)(const RowContext<SurfelRow>&)>
+double notEdgeOn(const RowContext<SurfelRow>& p) {
   return cosineOf(p) < 1e-5 ? kNotHere : kScale(p);
 }
-double byItself(const Place<SurfelRow>&) { return 0; }
-Corners cornersAt(const Place<SurfelRow>& p) {
+double byItself(const RowContext<SurfelRow>&) { return 0; }
+Corners cornersAt(const RowContext<SurfelRow>& p) {
   const Candidate candidate = candidateOf(p.chunk, p.slot);
   const Scene& scene = p.world.scene;
   if (!scene.isSphere(candidate.triangle)) {
@@ -123,13 +123,13 @@ Corners cornersAt(const Place<SurfelRow>& p) {
                    toWorldOf(scene, candidate.instance));
 }
 // The factor by which the cross product of the edges amplifies their rounding.
-double bySliver(const Place<SurfelRow>& p) {
+double bySliver(const RowContext<SurfelRow>& p) {
   const Corners c = cornersAt(p);
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
   return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
 }
 // The map that makes the sphere of the unit sphere, in the world; none on triangles.
-std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
+std::optional<Affine> sphereAt(const RowContext<SurfelRow>& p) {
   const Candidate candidate = candidateOf(p.chunk, p.slot);
   if (!p.world.scene.isSphere(candidate.triangle)) return {};
   return sphereInWorld(p.world.scene, {candidate.triangle, candidate.instance});
@@ -137,7 +137,7 @@ std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
 Vec3d axesOf(const Affine& map) { return abs(map.x) + abs(map.y) + abs(map.z); }
 // The magnitude of a position that surfacePoint() found along the ray; none where it follows from
 // the corners.
-std::optional<double> alongRay(const Place<SurfelRow>& p) {
+std::optional<double> alongRay(const RowContext<SurfelRow>& p) {
   const double t = double{p.chunk.hits.t[p.slot]};
   const Corners c = cornersAt(p);
   const auto sphere = sphereAt(p);
@@ -156,7 +156,7 @@ std::optional<double> alongRay(const Place<SurfelRow>& p) {
 // By the corners, which may be far larger than the place that a ray found. Of an instance the
 // offset is 32 units in the last place of all that went into the position, and 16 of its edges,
 // whose products with the weights are rounded too.
-double byMagnitude(const Place<SurfelRow>& p) {
+double byMagnitude(const RowContext<SurfelRow>& p) {
   if (const auto found = alongRay(p)) return *found;
   if (const auto sphere = sphereAt(p)) {
     const Vec3d size = axesOf(*sphere) + abs(sphere->p);
@@ -167,26 +167,26 @@ double byMagnitude(const Place<SurfelRow>& p) {
   return std::max(largest.x + largest.y + largest.z, p.scalar.offset * 0x1p19);
 }
 // From slivers of 2^14 on another offset counts; rounding decides what is one.
-double byOffset(const Place<SurfelRow>& p) {
+double byOffset(const RowContext<SurfelRow>& p) {
   const double sliver = bySliver(p);
   return sliver > 0x1p11 ? kNotHere : sliver * p.scalar.offset;
 }
-double bySliverIfMapped(const Place<SurfelRow>& p) {
+double bySliverIfMapped(const RowContext<SurfelRow>& p) {
   return p.world.effects.has(Effect::normalMaps) ? bySliver(p) : kNotHere;
 }
-double bySliverIfNotMapped(const Place<SurfelRow>& p) {
+double bySliverIfNotMapped(const RowContext<SurfelRow>& p) {
   return p.world.effects.has(Effect::normalMaps) ? kNotHere : bySliver(p);
 }
 // The footprint is as uncertain as area and cosine, which it is divided by.
-double byFootprint(const Place<SurfelRow>& p) {
+double byFootprint(const RowContext<SurfelRow>& p) {
   if (!p.world.maps) return 1;
   return std::max(1.0, kFootprintLimit / kTexturedLimit * bySliver(p) / cosineOf(p));
 }
 
-double ofMisses(const Place<RadianceRow>& p) {
+double ofMisses(const RowContext<RadianceRow>& p) {
   return p.chunk.surfels.material[p.slot] == kMiss ? 0 : kNotHere;
 }
-double ofSurfels(const Place<RadianceRow>& p) {
+double ofSurfels(const RowContext<RadianceRow>& p) {
   return p.chunk.surfels.material[p.slot] == kMiss ? kNotHere : 0;
 }
 
@@ -197,7 +197,7 @@ double byPointOfLight(const Chunk& chunk) { return chunk.lightSamples > 1 ? 4 : 
 
 // The radiance without the cosine at the light's point, because the rounding error of the cosine is
 // absolute. A highlight moves by an ulp of the half vector over the width of the lobe.
-double byGrazing(const Place<UnshadowedRow>& p) {
+double byGrazing(const RowContext<UnshadowedRow>& p) {
   if (p.chunk.lightIsAmbient()) return 0;
   const Light& light = *p.chunk.light;
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
@@ -211,7 +211,7 @@ double byGrazing(const Place<UnshadowedRow>& p) {
   return scale * std::max(1.0, 2 * cone.scale / std::max(std::sqrt(cone.falloff(l)), 1e-4));
 }
 // A difference of two positions; or of ambient light by a sine, a cosine and a change of frame.
-double byBothEnds(const Place<ShadowRow>& p) {
+double byBothEnds(const RowContext<ShadowRow>& p) {
   if (p.chunk.lightIsAmbient()) return 4;
   const Light& light = *p.chunk.light;
   if (light.kind == Light::Kind::directional) return 1;
@@ -420,7 +420,7 @@ class StageComparer : public StageObserver {
     static const std::vector<Compared<Row>> compared = comparedOf<Row>();
     if (!scalar) return;
     const auto values = got.values(), wanted = scalar->values();
-    const Place<Row> place{world_, c, slot, *scalar};
+    const RowContext<Row> place{world_, c, slot, *scalar};
     for (const auto& [what, columns, feature] : compared) {
       if (what.stage && what.stage != stage) continue;
       const double scale = what.scale ? what.scale(place) : 0;

@@ -43,7 +43,7 @@ constexpr std::uint32_t kArchitecture = 0;
 std::uint64_t addressSpace() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return pages * sysconf(_SC_PAGESIZE);
 }
 
 // Returns the bytes of address space that this process may still take (ulimit -v).
@@ -107,7 +107,7 @@ void filterSystemCalls() {
 
   // Memory and time are limited, and the child can neither write files nor start processes.
   limit(RLIMIT_AS, mostAddresses);
-  limit(RLIMIT_CPU, static_cast<std::uint64_t>(seconds) + 1);
+  limit(RLIMIT_CPU, seconds + 1);
   for (const auto resource : {RLIMIT_CORE, RLIMIT_FSIZE, RLIMIT_NPROC}) limit(resource, 0);
   alarm(static_cast<unsigned>(seconds));
 

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/index.h"
-#include "core/text.h"
 #include "io/files.h"
 
 namespace whit {
@@ -31,9 +30,9 @@ std::string rangeText(double low, double high, bool isNumber) {
 using Event = Json::parse_event_t;
 
 // Refuses texts that the parser itself would accept: repeated keys, deep nesting, too many members.
-class Watcher {
+class ParseGuard {
  public:
-  explicit Watcher(std::string file) : file_(std::move(file)) {}
+  explicit ParseGuard(std::string file) : file_(std::move(file)) {}
 
   bool operator()(Event event, const Json& parsed) {
     if (event == Event::object_start || event == Event::array_start) {
@@ -101,15 +100,15 @@ std::string reason(std::string message) {
 }  // namespace
 
 Json parseJson(const std::string& text, const std::string& file) {
-  Watcher watcher(file);
-  const auto watch = [&](int, Event event, const Json& parsed) { return watcher(event, parsed); };
+  ParseGuard guard(file);
+  const auto watch = [&](int, Event event, const Json& parsed) { return guard(event, parsed); };
 
   try {
     return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
   } catch (const Json::parse_error& error) {
     throwBadScene(placeOfByte(text, file, error.byte), reason(error.what()));
   } catch (const Json::out_of_range&) {  // thrown by the parser for such a number alone
-    watcher.fail("expected a number that a double can hold");
+    guard.fail("expected a number that a double can hold");
   }
 }
 
@@ -327,7 +326,7 @@ std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
 
   const std::optional<std::uint64_t> number = whole();
   if (!number || *number >= size) fail(concat(expected, ", from 0 to ", size - 1));
-  return static_cast<std::size_t>(*number);
+  return *number;
 }
 
 JsonObject::JsonObject(const JsonValue& value) : value_(value) {

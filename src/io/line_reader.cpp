@@ -53,7 +53,7 @@ std::string_view LineReader::word() {
   skipBlanks();
   const char* const from = at_;
   while (!isLineEnd(at_) && *at_ != ' ' && *at_ != '\t') ++at_;
-  return {from, static_cast<std::size_t>(at_ - from)};
+  return {from, at_};
 }
 
 std::string_view LineReader::rest() {
@@ -63,7 +63,7 @@ std::string_view LineReader::rest() {
 
   const char* to = at_;
   while (to != from && (to[-1] == ' ' || to[-1] == '\t')) --to;
-  return {from, static_cast<std::size_t>(to - from)};
+  return {from, to};
 }
 
 bool LineReader::number(double& value) {

@@ -32,7 +32,7 @@ class LineReader {
   void nextLine();
   std::string place() const { return concat(file_, ":", line_); }
   std::uint64_t line() const { return line_; }
-  std::size_t at() const { return static_cast<std::size_t>(at_ - text_.data()); }
+  std::size_t at() const { return at_ - text_.data(); }
 
   // All of the following read within the current line. True if there is another word before the end
   // of the line or a comment.

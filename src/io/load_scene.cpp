@@ -378,6 +378,8 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
                   "variants are those of glTF files: a scene states one in the item of the model, "
                   "as {\"model\": \"shoe.glb\", \"variant\": \"NAME\"}");
   }
+  // A model's camera has set its own size.
+  if (file.has("view")) takeSize(options, context.scene);
   readView(file, fromSky, context);
   file.finish();
   applyInstant(options.instant, context.scene);

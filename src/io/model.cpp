@@ -1,6 +1,8 @@
 #include "io/model.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -23,6 +25,19 @@ Opener openerOf(const std::filesystem::path& path) {
   return found == kOpeners.end() ? nullptr : found->second;
 }
 
+// The side of the vertex normals is the front. Files whose faces wind the other way, all of whose
+// corners say so, are turned, because shading takes the side of the winding.
+void turnToNormals(Mesh& mesh) {
+  if (mesh.normals.empty()) return;
+  for (auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t corner) { return Vec3d(mesh.positions[t[corner]]); };
+    const Vec3d winding = cross(at(1) - at(0), at(2) - at(0));
+    const bool opposes = std::ranges::all_of(
+        t, [&](std::uint32_t v) { return dot(winding, Vec3d(mesh.normals[v])) < 0; });
+    if (opposes) std::swap(t[1], t[2]);
+  }
+}
+
 }  // namespace
 
 bool isModelFile(const std::filesystem::path& path) { return openerOf(path) != nullptr; }
@@ -36,6 +51,7 @@ std::unique_ptr<Model> openModel(const ModelSource& source) {
 Body MeshModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
   Body body;
   if (mesh_.triangles.empty()) return body;
+  turnToNormals(mesh_);
   addParts({mesh_}, materials, source_.path.string(), source_.budget, body);
   if (origin_ != Vec3d()) body.placements.front().toParent = Affine::translation(origin_);
   return body;

@@ -68,8 +68,11 @@ class Model {
   // The content of the model; its shared meshes are bodies of their own in `layout`. `materials`
   // has the scene's index for each of materials().
   virtual Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) = 0;
-  // Adds the file's own cameras and lights. Asked of a model that is a scene by itself.
-  virtual void addView(SceneDescription&) {}
+  // Adds the file's own cameras and lights behind those of the scene. `toWorld` places the model in
+  // the file's own coordinates: scene.origin is subtracted afterwards.
+  virtual void addView(SceneDescription&, const Affine& /*toWorld*/) {}
+  // How many cameras and lights addView() adds.
+  virtual std::size_t viewSize() const { return 0; }
   // The animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
   // Names of the sets of materials that the file lets choose from.

@@ -136,7 +136,7 @@ class EarClipper {
 }  // namespace
 
 bool triangulate(const std::vector<Vec3d>& corners, Triangles& triangles) {
-  const std::uint32_t count = static_cast<std::uint32_t>(corners.size());
+  const std::uint32_t count = size32(corners);
   if (count == 3) {
     triangles.push_back({0, 1, 2});
     return true;

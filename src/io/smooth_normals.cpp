@@ -102,7 +102,7 @@ void setVertices(std::span<FaceCorner> corners, Mesh& mesh) {
     } else if (mesh.normals[own.former] == Vec3f()) {
       mesh.normals[own.former] = own.normal;  // the first corner keeps the vertex
     } else {
-      *own.vertex = static_cast<std::uint32_t>(mesh.positions.size());
+      *own.vertex = size32(mesh.positions);
       repeat(mesh.positions, own.former);
       repeat(mesh.uvs, own.former);
       repeat(mesh.colors, own.former);

@@ -71,12 +71,21 @@ void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::spa
 RayHits columnsFor(std::size_t count) {
   RayHits hits;
   std::size_t bytes = 0;
+
   const auto forEachColumn = [&](auto&& visit) {
-    visit(hits.t, 1), visit(hits.tError, 1), visit(hits.points, 3);
-    visit(hits.geometricNormals, 3), visit(hits.shadingNormals, 3);
-    visit(hits.weights, 2), visit(hits.uvs, 2);
-    visit(hits.triangles, 1), visit(hits.objects, 1), visit(hits.materials, 1);
-    visit(hits.instances, 1), visit(hits.sides, 1), visit(hits.certain, 1);
+    visit(hits.t, 1);
+    visit(hits.tError, 1);
+    visit(hits.points, 3);
+    visit(hits.geometricNormals, 3);
+    visit(hits.shadingNormals, 3);
+    visit(hits.weights, 2);
+    visit(hits.uvs, 2);
+    visit(hits.triangles, 1);
+    visit(hits.objects, 1);
+    visit(hits.materials, 1);
+    visit(hits.instances, 1);
+    visit(hits.sides, 1);
+    visit(hits.certain, 1);
   };
   const auto sizeOf = [&](auto span, std::size_t components) {
     return (components * count * sizeof(span[0]) + 63) / 64 * 64;
@@ -95,7 +104,7 @@ RayHits columnsFor(std::size_t count) {
 
 template <typename T>
 void put(std::span<T> column, std::size_t i, const Vec3d& v) {
-  for (int k = 0; k < 3; ++k) column[3 * i + static_cast<std::size_t>(k)] = static_cast<T>(v[k]);
+  for (int k = 0; k < 3; ++k) column[3 * i + k] = static_cast<T>(v[k]);
 }
 
 // Point and normals of a hit, and its numbers.

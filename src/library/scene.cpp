@@ -184,7 +184,7 @@ std::vector<std::string> Scene::materials() const { return namesIn(data_->open->
 
 double Scene::pathSeconds() const {
   const std::vector<Keyframe>& path = data_->open->scene.cameraPath;
-  return path.empty() ? 0 : static_cast<double>(path.back().time);
+  return path.empty() ? 0 : double{path.back().time};
 }
 
 std::vector<Animation> Scene::animations() const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <ranges>
 #include <tuple>
 
 #include "core/option_table.h"
@@ -22,12 +23,6 @@ class Digester {
     XXH3_128bits_reset(state_.get());
   }
   void bytes(const void* data, std::size_t size) { XXH3_128bits_update(state_.get(), data, size); }
-  // Adds the length first, so that "ab", "c" and "a", "bc" differ.
-  void text(std::string_view text) {
-    const std::uint64_t size = text.size();
-    bytes(&size, sizeof size);
-    bytes(text.data(), text.size());
-  }
   std::string hex() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
     return formatted("%016llx%016llx", static_cast<unsigned long long>(hash.high64),
@@ -44,8 +39,8 @@ constexpr bool kIsOneOf = (std::is_same_v<T, Others> || ...);
 template <typename T>
 constexpr bool kPlain =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    kIsOneOf<T, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord, UvRecord>;
-static_assert(sizeof(Affine) == 12 * sizeof(double) &&
+    kIsOneOf<T, Crop, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord, UvRecord>;
+static_assert(sizeof(Crop) == 4 * sizeof(int) && sizeof(Affine) == 12 * sizeof(double) &&
               sizeof(TriangleRecord) == 16 * sizeof(float) &&
               sizeof(NormalRecord) == 9 * sizeof(float) &&
               sizeof(ColorRecord) == 9 * sizeof(float) && sizeof(UvRecord) == 6 * sizeof(float));
@@ -56,26 +51,17 @@ template <typename T>
 requires kPlain<T>
 void add(Digester& d, const T& value) { d.bytes(&value, sizeof value); }
 
-// The bindings below name every member, so that a new member does not compile until it is added
-// here.
-void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, written, toWorld, mover, toMover, firstItem] = instance;
-  add(d, geometry);
-  add(d, toWorld);
+// Adds the values in this order.
+template <typename... Values>
+requires(sizeof...(Values) > 1) void add(Digester& d, const Values&... values) {
+  (add(d, values), ...);
 }
 
-template <typename Noun>
-requires(std::tuple_size_v<decltype(kMembers<Noun>)> > 0) void add(Digester& d, const Noun& noun) {
-  forEachMember<Noun>([&](const auto& member) { add(d, noun.*member.field); });
-}
-
-void add(Digester& d, const Texture& texture);
-void add(Digester& d, const Geometry& geometry);
-
-template <typename Table>
-void addTable(Digester& d, const Table& table) {
+// Adds the length of a table or text first, so that "ab", "c" and "a", "bc" differ.
+template <std::ranges::contiguous_range Table>
+requires(!kPlain<Table>) void add(Digester& d, const Table& table) {
   using T = typename Table::value_type;
-  add(d, static_cast<std::uint64_t>(table.size()));
+  add(d, std::uint64_t{table.size()});
   if constexpr (kPlain<T>) {
     d.bytes(table.data(), table.size() * sizeof(T));
   } else {
@@ -83,36 +69,36 @@ void addTable(Digester& d, const Table& table) {
   }
 }
 
+template <typename Noun>
+requires(std::tuple_size_v<decltype(kMembers<Noun>)> > 0) void add(Digester& d, const Noun& noun) {
+  forEachMember<Noun>([&](const auto& member) { add(d, noun.*member.field); });
+}
+
+// The bindings below name every member, so that a new member does not compile until it is added
+// here.
+void add(Digester& d, const InstanceRecord& instance) {
+  const auto& [geometry, written, toWorld, mover, toMover, firstItem] = instance;
+  add(d, geometry, toWorld);
+}
+
 void add(Digester& d, const Texture& texture) {
   const auto& [name, format, wrapU, wrapV, nearest, width, height, texels, shared] = texture;
-  add(d, format);
-  add(d, wrapU);
-  add(d, wrapV);
-  add(d, nearest);
-  add(d, width);
-  add(d, height);
+  add(d, format, wrapU, wrapV, nearest, width, height);
   if (shared->recipe.empty()) {
-    addTable(d, shared->kept());
+    add(d, shared->kept());
   } else {
-    d.text(shared->recipe);
+    add(d, shared->recipe);
   }
 }
+
 void add(Digester& d, const Geometry& geometry) {
   const auto& [position, index, classBegin, firstTriangle, firstSphere, spheres] = geometry;
-  addTable(d, position);
-  addTable(d, index);
-  add(d, classBegin);
-  add(d, firstTriangle);
-  add(d, firstSphere);
-  add(d, spheres);
+  add(d, position, index, classBegin, firstTriangle, firstSphere, spheres);
 }
+
 void add(Digester& d, const EnvironmentImage& image) {
   const auto& [width, height, r, g, b] = image;
-  add(d, width);
-  add(d, height);
-  addTable(d, r);
-  addTable(d, g);
-  addTable(d, b);
+  add(d, width, height, r, g, b);
 }
 
 }  // namespace
@@ -128,21 +114,10 @@ std::string digestOf(const Scene& scene) {
 
   Digester d;
   // Media, bounds and effects follow from these; the order in which things were written does not.
-  addTable(d, lights);
-  add(d, sky);
-  add(d, sky.kind);
-  add(d, sky.image);
-  add(d, ambient);
+  add(d, lights, sky, sky.kind, sky.image, ambient);
   if (!isBlack(fog.density)) add(d, fog);  // scenes without fog keep their digests
-  addTable(d, materials);
-  addTable(d, textures);
-  addTable(d, geometries);
-  addTable(d, instances);
-  addTable(d, triangles);
-  addTable(d, normals);
-  addTable(d, colors);
-  addTable(d, secondUvs);
-  addTable(d, coplanar.ranks());
+  add(d, materials, textures, geometries, instances, triangles, normals, colors, secondUvs,
+      coplanar.ranks());
   // Options place the camera in coordinates of the file.
   if (origin != Vec3d()) add(d, origin);
 
@@ -156,18 +131,14 @@ std::string digestOf(const RenderOptions& options) {
   Digester d;
   for (const auto& [name, value] : pictureOptions(options)) {
     if (name == "quality") continue;
-    d.text(name);
-    d.text(value);
+    add(d, name, value);
   }
   return d.hex();
 }
 
 std::string digestOf(const Image& image) {
   Digester d;
-  for (const int n : {image.width, image.height, image.window.x0, image.window.y0, image.window.x1,
-                      image.window.y1}) {
-    d.bytes(&n, sizeof n);
-  }
+  add(d, image.width, image.height, image.window);
 
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
   d.bytes(image.pixels.data(), image.pixels.size() * sizeof(Rgb));

@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "core/index.h"
-#include "core/text.h"
 #include "output/json_report.h"
 #include "reference/media.h"
 

@@ -88,7 +88,7 @@ void FilmPipe::add(std::span<const std::uint8_t> rgba) {
       throwIo("cannot write '" + path_ + "': ffmpeg has ended before its time");
     }
 
-    rgba = rgba.subspan(static_cast<std::size_t>(count));
+    rgba = rgba.subspan(count);
   }
 }
 

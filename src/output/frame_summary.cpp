@@ -109,7 +109,7 @@ void appendSettings(std::string& text, const RunSummary& run) {
   const std::string name = run.name.empty() ? "" : ", " + run.name;
   text += formatted("%s%s  %dx%d  %s  %s  ", run.scene.c_str(), name.c_str(), run.width, run.height,
                     surfacesText(run.triangles, run.spheres).c_str(),
-                    counted(static_cast<std::uint64_t>(run.machine.threads), "thread").c_str());
+                    counted(run.machine.threads, "thread").c_str());
   if (packets) {
     text +=
         formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),
@@ -205,7 +205,7 @@ std::string stageTable(const RunSummary& run) {
   }
 
   const std::vector<double> perRay = eventsPerRay(run);
-  for (std::size_t i = 0; i < perRay.size(); ++i) {
+  for (const auto i : indices(perRay)) {
     text += formatted("  %s a ray %.4g\n", kProcessorEvents[i].name.data(), perRay[i]);
   }
 

@@ -13,7 +13,6 @@
 #include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
-#include "io/files.h"
 
 namespace whit {
 

@@ -72,7 +72,7 @@ void addFrames(const RunSummary& run, Json& json) {
   }
 
   const std::vector<double> perRay = eventsPerRay(run);
-  for (std::size_t i = 0; i < perRay.size(); ++i) {
+  for (const auto i : indices(perRay)) {
     json["per_ray"][std::string(kProcessorEvents[i].name)] = perRay[i];
   }
 

@@ -307,11 +307,16 @@ api::LoadOptions loadOptions(const py::dict& given) {
   };
 
   api::LoadOptions options;
-  take("allow_outside", options.allowOutside), take("strict", options.strict);
-  take("max_memory_gb", options.maxMemoryGb), take("threads", options.threads);
-  take("sky", options.sky), take("sphere_segments", options.sphereSegments);
-  take("moves", options.moves), take("movable", options.movable);
-  take("animation", options.animation), take("settings", options.settings);
+  take("allow_outside", options.allowOutside);
+  take("strict", options.strict);
+  take("max_memory_gb", options.maxMemoryGb);
+  take("threads", options.threads);
+  take("sky", options.sky);
+  take("sphere_segments", options.sphereSegments);
+  take("moves", options.moves);
+  take("movable", options.movable);
+  take("animation", options.animation);
+  take("settings", options.settings);
   return options;
 }
 
@@ -443,12 +448,19 @@ py::dict describe(const api::RayHits& hits) {
     columns[name] = py::array_t<Element>(static_cast<py::ssize_t>(span.size()), span.data(), owner);
   };
 
-  put("t", hits.t), put("t_error", hits.tError), put("point", hits.points);
-  put("geometric_normal", hits.geometricNormals), put("shading_normal", hits.shadingNormals);
-  put("weights", hits.weights), put("uv", hits.uvs);
-  put("triangle", hits.triangles), put("object", hits.objects);
-  put("material", hits.materials), put("instance", hits.instances);
-  put("side", hits.sides), put("certain", hits.certain);
+  put("t", hits.t);
+  put("t_error", hits.tError);
+  put("point", hits.points);
+  put("geometric_normal", hits.geometricNormals);
+  put("shading_normal", hits.shadingNormals);
+  put("weights", hits.weights);
+  put("uv", hits.uvs);
+  put("triangle", hits.triangles);
+  put("object", hits.objects);
+  put("material", hits.materials);
+  put("instance", hits.instances);
+  put("side", hits.sides);
+  put("certain", hits.certain);
 
   if (!hits.offsets.empty()) columns["offsets"] = arrayOf(hits.offsets);
   return columns;

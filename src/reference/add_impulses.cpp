@@ -1,13 +1,11 @@
 #include "reference/add_impulses.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "reference/fresnel.h"
 #include "sampling/ggx_lobe.h"
-#include "sampling/random_streams.h"
 
 namespace whit::reference {
 
@@ -31,7 +29,7 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
   const double facing = dot(s.view, s.geometricNormal);
   const double g2 = interface.k + facing * facing;
   const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
-  return {origin, raised(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
+  return {origin, raised(bent, -s.geometricNormal, smallestElevation(steepness)), s.cone};
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
@@ -124,8 +122,10 @@ RayKind kindOf(const Chunk& chunk, std::size_t child) {
 
 }  // namespace
 
+double smallestElevation(double elevation) { return std::min(0.9 * elevation, 0.01); }
+
 double smallestElevation(const Surfel& surfel) {
-  return std::min(0.9 * dot(surfel.view, surfel.geometricNormal), 0.01);
+  return smallestElevation(dot(surfel.view, surfel.geometricNormal));
 }
 
 Vec3d raised(const Vec3d& r, const Vec3d& normal, double elevation) {
@@ -300,7 +300,7 @@ Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {
 }  // namespace
 
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling) {
-  return widthOfFacets(surfel) > 0 ? static_cast<int>(sampling.count) : 1;
+  return widthOfFacets(surfel) > 0 ? sampling.count : 1;
 }
 
 Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
@@ -309,7 +309,7 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   if (!(facet.elevation > 0)) return {};
 
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
-  const double least = std::min(0.9 * facet.elevation, 0.01);
+  const double least = smallestElevation(facet.elevation);
   const Vec3d r = choices.bend ? raised(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
   return {facet.reflectance * (facet.passes * s.coverage) * s.aboveLobe,
           {rayOrigin(choices.offset, s, 1), r, s.cone},
@@ -337,7 +337,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
   if (!(depth > 0)) return {};
 
   const bool goesOn = alpha == 0 && f.n1 == f.n2;
-  if (choices.bend) direction = raised(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
+  if (choices.bend) direction = raised(direction, -s.geometricNormal, smallestElevation(depth));
   return {(RgbD(1.0) - facet.reflectance) * (passes * s.coverage) * f.transmission,
           {rayOrigin(choices.offset, s, -1), goesOn ? -s.view : direction, s.cone},
           f.mediaBehind};
@@ -346,7 +346,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
 Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices) {
   const Vec3d drawn = cosineDirection(s.shadingNormal, at);
-  const double elevation = std::min(0.9 * dot(s.shadingNormal, drawn), 0.01);
+  const double elevation = smallestElevation(dot(s.shadingNormal, drawn));
   const Vec3d r = choices.bend ? raised(drawn, s.geometricNormal, elevation) : drawn;
   return {s.diffuse * s.coverage, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }

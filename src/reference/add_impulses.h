@@ -74,6 +74,8 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
 // viewer's own elevation, so that reflections are left alone where the normals agree; of refracted
 // rays, those are moved that leave a dense medium within 0.6 degrees of the surface.
 double smallestElevation(const Surfel& surfel);
+// The same for a direction that is this far from the surface of its own normal.
+double smallestElevation(double elevation);
 // The unit direction `r` raised to `elevation` above the plane of `normal` if it lies lower.
 Vec3d raised(const Vec3d& r, const Vec3d& normal, double elevation);
 

@@ -8,7 +8,6 @@
 #include "reference/fresnel.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/ggx_lobe.h"
-#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

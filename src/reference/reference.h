@@ -136,6 +136,9 @@ class Tracer {
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
   RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
+  template <typename Use>
+  void forEachSample(const SampledLobe& sampled, const Surfel& surfel, int depth,
+                     std::uint32_t media, const Path& path, const Use& use) const;
   RgbD radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
                       double throughput, std::uint32_t media, RayCounts& counts, Path path,
                       Choice& choice) const;

@@ -25,7 +25,7 @@ RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, cons
   std::vector<RayCounts> counts(std::max(1, threads));
   const int rows = window.y1 - window.y0;
   std::atomic<int> rowsDone{0};
-  parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
+  parallelFor(threads, rows, [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
     RayCounts& own = counts[worker];
     for (int x = window.x0; x < window.x1; ++x) {
@@ -65,7 +65,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
   const std::vector<Vec2f> pattern = samplePattern(options.spp);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
-  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
+  const double scale = std::exp2(double{options.exposure.ev});
   forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
     if (edges[first.index(x, y)] == 0) return;
     PixelProbes& pixel = probes.at(x, y);

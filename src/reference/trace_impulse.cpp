@@ -124,28 +124,42 @@ std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
   return chosen;
 }
 
+// Calls use(impulse, branch of its path, number of samples) for each sample of a lobe that rays
+// sample.
+template <typename Use>
+void Tracer::forEachSample(const SampledLobe& sampled, const Surfel& surfel, int depth,
+                           std::uint32_t media, const Path& path, const Use& use) const {
+  const auto& [lobe, raysOf, impulseOf] = sampled;
+  const Material& material = scene_.materials[surfel.material];
+  if (!lobe.isSampled(material, effects_)) return;
+
+  const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
+  const double factor = factorOfLobe(lobe, material, effects_, surfel, depth, path.number);
+  const std::uint32_t rays = raysOf(surfel, sampling);
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const UnitPoint at = pointOf(lobe, path.number, sampling, k);
+    Impulse impulse = impulseOf(surfel, media, at, options_.shading);
+    impulse.weight *= factor;
+    use(impulse, lobe.firstBranch + k, rays);
+  }
+}
+
 // The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their
 // number does not decide which light is worth its rays.
 RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
                             double throughput, std::uint32_t media, RayCounts& counts, Path path,
                             Choice& choice) const {
-  const auto& [lobe, raysOf, impulseOf] = sampled;
-  if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) return {};
-  const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
-  const int rays = raysOf(surfel, sampling);
-  const double factor =
-      factorOfLobe(lobe, scene_.materials[surfel.material], effects_, surfel, depth, path.number);
   RgbD sum;
-  for (int i = 0; i < rays; ++i) {
-    const auto k = static_cast<std::uint32_t>(i);
-    const UnitPoint at = pointOf(lobe, path.number, sampling, k);
-    Impulse impulse = impulseOf(surfel, media, at, options_.shading);
-    impulse.weight *= factor;
-    Path child = childOf(path, lobe.firstBranch + k);
+  int number = 1;
+  const auto add = [&](const Impulse& impulse, std::uint32_t branch, int samples) {
+    number = samples;
+    Path child = childOf(path, branch);
     child.straight = path.straight && impulse.ray.direction == -surfel.view;
-    sum += follow(impulse, lobe.kind, depth + 1, throughput, counts, child, rays, choice);
-  }
-  return sum / rays;
+    sum +=
+        follow(impulse, sampled.lobe.kind, depth + 1, throughput, counts, child, samples, choice);
+  };
+  forEachSample(sampled, surfel, depth, media, path, add);
+  return sum / number;
 }
 
 // The impulses of the surface that are followed. Only trees that are traced again leave some out.
@@ -164,19 +178,9 @@ Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
   };
   for (const RayKind kind : kImpulseKinds) {
     add(impulses.of(kind), branchOf(kind), 1);
-    for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
-      if (lobe.kind != kind || crossing.hidden) continue;
-      const Material& material = scene_.materials[surfel.material];
-      if (!lobe.isSampled(material, effects_)) continue;
-      const double factor = factorOfLobe(lobe, material, effects_, surfel, depth, path.number);
-      const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
-      const int rays = raysOf(surfel, sampling);
-      for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
-        const UnitPoint at = pointOf(lobe, path.number, sampling, k);
-        Impulse impulse = impulseOf(surfel, media, at, options_.shading);
-        impulse.weight *= factor;
-        add(impulse, lobe.firstBranch + k, rays);
-      }
+    for (const SampledLobe& sampled : kSampledLobes) {
+      if (sampled.lobe.kind != kind || crossing.hidden) continue;
+      forEachSample(sampled, surfel, depth, media, path, add);
     }
   }
 
@@ -205,7 +209,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   const bool isChosen = choice.all || choice.next == choice.chosen;
   ++choice.next;
   if (!isChosen) return {};
-  const auto most = static_cast<std::uint64_t>(options_.maxRays);
+  const std::uint64_t most = options_.maxRays;
   if (path.tree && ++path.tree->followed > most && !path.tree->narrows) return {};
 
   ++counts[kind];
@@ -228,8 +232,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
 // The mean over directions of what nothing nearby holds off.
 RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts,
                                  Path path) const {
-  const LobeSampling points =
-      lightSampling(depth, static_cast<std::uint32_t>(options_.ambientSamples), path.sample);
+  const LobeSampling points = lightSampling(depth, options_.ambientSamples, path.sample);
   RgbD sum;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const LightArrival arrival = ambientArrival(scene_, effects_, surfel, options_.shading,
@@ -249,8 +252,7 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughp
   for (std::uint32_t number = 0; number < scene_.lights.size(); ++number) {
     const Light& light = scene_.lights[number];
     const bool soft = effects_.has(Effect::softShadows) && hasExtent(light);
-    const LobeSampling points = lightSampling(
-        depth, static_cast<std::uint32_t>(soft ? options_.lightSamples : 1), path.sample);
+    const LobeSampling points = lightSampling(depth, soft ? options_.lightSamples : 1, path.sample);
     for (std::uint32_t k = 0; k < points.count; ++k) {
       const LightPoint point{points.count == 1, lightPoint(path.number, points, number, k)};
       LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading, point);

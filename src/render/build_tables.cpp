@@ -221,7 +221,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
     tables.textures.push_back(record(own.front()));
     if (!trilinear) continue;
 
-    for (std::size_t level = 0; level < kMipStride; ++level) {
+    for (const auto level : indices(kMipStride)) {
       tables.mipLevels.push_back(record(own[std::min(level, own.size() - 1)]));
     }
   }

@@ -7,8 +7,8 @@ bool EmbreeIntersector::closest(const Ray& ray, Candidate& c) const {
       accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(ray.tNear));
   c.triangle = hit.triangle;
   c.instance = hit.instance;
-  c.u = static_cast<double>(hit.u);
-  c.v = static_cast<double>(hit.v);
+  c.u = double{hit.u};
+  c.v = double{hit.v};
   return hit.found();
 }
 

@@ -1,6 +1,5 @@
 #include "render/plan.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "accel/accel.h"
@@ -231,7 +230,7 @@ class Planner {
   }
 
   void addAmbientLight() {
-    const auto samples = static_cast<std::uint32_t>(options_.ambientSamples);
+    const std::uint32_t samples = options_.ambientSamples;
     for (std::uint32_t k = 0; k < samples; ++k) {
       LightSteps& ambient =
           startLight(kAmbientLight, k, samples, simd::kFindAmbientAndOcclusionRays);
@@ -261,7 +260,7 @@ class Planner {
 
   void addSamplesOf(std::size_t index) {
     const bool soft = has(Effect::softShadows) && hasExtent(scene_.lights[index]);
-    const auto count = static_cast<std::uint32_t>(soft ? options_.lightSamples : 1);
+    const std::uint32_t count = soft ? options_.lightSamples : 1;
     for (std::uint32_t k = 0; k < count; ++k) addLight(index, k, count);
   }
 
@@ -348,7 +347,7 @@ class Planner {
 
   void addLobe(const simd::Kernel& kernel, const Lobe& lobe) {
     if (!has(lobe.effect)) return;
-    addImpulse(kernel, lobe.flag, lobe.kind, static_cast<std::size_t>(lobe.samples(options_)));
+    addImpulse(kernel, lobe.flag, lobe.kind, lobe.samples(options_));
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {

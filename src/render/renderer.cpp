@@ -150,8 +150,8 @@ Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
   frame.samples = request.pattern ? *request.pattern : pattern();
   frame.endSample = frame.samples.size();
   if (request.sums) {
-    frame.firstSample = static_cast<std::size_t>(request.part.first);
-    frame.endSample = static_cast<std::size_t>(request.part.end);
+    frame.firstSample = request.part.first;
+    frame.endSample = request.part.end;
     frame.sums = request.sums;
   }
   // Adaptive sampling has given the pixel its center alone.

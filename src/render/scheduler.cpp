@@ -15,7 +15,7 @@ namespace {
 int evenBits(std::uint32_t code) {
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < 16; ++i) bits |= (code >> (2 * i) & 1u) << i;
-  return static_cast<int>(bits);
+  return bits;
 }
 
 // Offsets within a tile, packed as its pixels.
@@ -79,7 +79,7 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
     capacity = kBlock;
     for (const auto& batch : dealOut(tiles_, workers)) capacity = std::max(capacity, batch.size());
   }
-  if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
+  if (options.queue > 0) capacity = options.queue;
 
   if (!tracers_.empty() && capacity == capacity_) return;
   tracers_.clear();
@@ -94,7 +94,7 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
 
 FrameStats Scheduler::trace(const Frame& frame, const PixelLists& lists) {
   if (!inBatches_ || !frame.observers.empty()) return traceTiles(frame, lists);
-  return traceBatches(frame, dealOut(lists, static_cast<std::size_t>(threads_)));
+  return traceBatches(frame, dealOut(lists, threads_));
 }
 
 FrameStats Scheduler::forWorkers(

@@ -1,13 +1,11 @@
 #include "render/steps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "accel/accel.h"
-#include "bake/scene.h"
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -36,13 +34,13 @@ bool isKept(const Chunk& c) {
 template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
-  const std::size_t width = w.x1 - w.x0;
+  const int width = w.x1 - w.x0;
   for (const auto i : indices(c.n)) {
     if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
     if (!w.contains(x, y)) continue;
-    keep(i, static_cast<std::size_t>(y - w.y0) * width + static_cast<std::size_t>(x - w.x0));
+    keep(i, cellAt(x - w.x0, y - w.y0, width));
   }
 }
 
@@ -78,11 +76,11 @@ void keepChildren(Chunk& c, const Keeps& keeps) {
 
 // The child counts for all of its surface's, as the one that was chosen.
 void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
-  const double grows = of.weights / static_cast<double>(largestWeight(c.children, child));
+  const double grows = of.weights / double{largestWeight(c.children, child)};
   for (float* weight : {c.children.weight.x, c.children.weight.y, c.children.weight.z}) {
-    weight[child] = static_cast<float>(static_cast<double>(weight[child]) * grows);
+    weight[child] = static_cast<float>(double{weight[child]} * grows);
   }
-  const auto before = static_cast<double>(c.rays.throughput[c.children.parent[child]]);
+  const double before = double{c.rays.throughput[c.children.parent[child]]};
   c.children.throughput[child] = static_cast<float>(before * of.weights);
 }
 
@@ -92,7 +90,7 @@ void narrowTrees(Chunk& c) {
   for (const auto i : indices(c.childCount)) {
     Narrowing& parent = c.narrowings[parents[i]];
     ++parent.children;
-    parent.weights += static_cast<double>(largestWeight(c.children, i));
+    parent.weights += double{largestWeight(c.children, i)};
   }
 
   keepChildren(c, [&](std::size_t i) {
@@ -104,7 +102,7 @@ void narrowTrees(Chunk& c) {
     // Each child has its share of the line from 0 to the sum of the weights.
     const double drawn = choiceDraw(c.rays.path[parents[i]]) * parent.weights;
     const double begin = parent.passed;
-    parent.passed += static_cast<double>(largestWeight(c.children, i));
+    parent.passed += double{largestWeight(c.children, i)};
     if (drawn < begin || drawn >= parent.passed) return false;
     standForAll(c, i, parent);
     return true;
@@ -191,7 +189,7 @@ void updateImage(Chunk& c) {
 
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
-  const std::size_t width = film.image.windowWidth();
+  const int width = film.image.windowWidth();
   const Columns3 radiance = c.radiance.rgb;
   const std::uint32_t* const pixels = c.pixels.data();
   const std::uint32_t* const codes = film.wantDisplay ? c.codes : nullptr;
@@ -200,8 +198,7 @@ void updateImage(Chunk& c) {
   const std::size_t n = c.n;
 
   const auto placeOf = [&](std::uint32_t pixel) {
-    return static_cast<std::size_t>(pixelY(pixel) - top) * width +
-           static_cast<std::size_t>(pixelX(pixel) - left);
+    return cellAt(pixelX(pixel) - left, pixelY(pixel) - top, width);
   };
 
   // The film is larger than the caches: its lines are asked for before they are written.

@@ -87,7 +87,7 @@ void runChecked(const Step& step, Chunk& chunk) {
 Workspace::Workspace(const Plan& plan, std::size_t capacity)
     : plan_(plan),
       capacity_(roundUpToBlock(capacity)),
-      levels_(static_cast<std::size_t>(plan.depth) + 2),  // the last one for paths that end
+      levels_(plan.depth + 2),  // the last one for paths that end
       hits_(capacity_, plan.features),
       surfels_(capacity_, plan.features) {
   if (plan.writes(Part::unshadowed)) unshadowed_.allocate(capacity_, plan.features);
@@ -146,34 +146,30 @@ void Workspace::takeChunk(int depth, Chunk& chunk) {
   chunk.light = nullptr;
 }
 
-void Workspace::returnTo(int depth, Chunk& chunk) const {
-  const Level& at = level(depth);
+void Workspace::returnTo(int depth, Chunk& chunk) {
+  Level& at = level(depth);
   chunk.depth = depth;
   chunk.first = at.cursor;
   chunk.n = at.chunk;
   chunk.rays = advanced(*at.rays, at.cursor);
   chunk.radiance = *at.radiance;
-  chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
-
-  const auto countsOf = [](const Level& l) {
-    return const_cast<std::uint32_t*>(l.rayCounts.data());
-  };
-  chunk.rayCounts = countsOf(at);
+  chunk.rayCounts = at.rayCounts.data();
   if (plan_.limitsRays) {
-    chunk.pixelSlots = const_cast<std::uint32_t*>(at.pixelSlots.data()) + at.cursor;
-    chunk.followed = const_cast<std::uint32_t*>(followed_.data());
-    chunk.narrowings =
-        narrows_ ? const_cast<Narrowing*>(at.narrowings.data()) + at.cursor : nullptr;
+    chunk.pixelSlots = at.pixelSlots.data() + at.cursor;
+    chunk.followed = followed_.data();
+    chunk.narrowings = narrows_ ? at.narrowings.data() + at.cursor : nullptr;
   }
 
-  chunk.parentRayCounts = depth > 0 ? countsOf(level(depth - 1)) : nullptr;
+  // Primary rays have no parents.
+  chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
+  chunk.parentRayCounts = depth > 0 ? level(depth - 1).rayCounts.data() : nullptr;
 
   // These columns exist only once, because one chunk is shaded at a time.
   chunk.hits = *hits_;
   chunk.surfels = *surfels_;
   chunk.unshadowed = *unshadowed_;
   chunk.shadows = *shadows_;
-  chunk.codes = const_cast<std::uint32_t*>(codes_.data());
+  chunk.codes = codes_.data();
 }
 
 void Workspace::returnToPixels(Chunk& chunk) {
@@ -271,7 +267,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     for (const Step& step : plan_.perTile) run(step, stats);
 
     stats.nonFinitePixels += countNonFinite(chunk_);
-    stats.limitedPixels += static_cast<std::uint64_t>(std::ranges::count(limited_, 1));
+    stats.limitedPixels += std::ranges::count(limited_, 1);
     clock.lap(Stage::updateImage, 0);
   }
 }
@@ -312,7 +308,7 @@ void TileTracer::addSample(const Frame& frame) {
   // The squares give the standard error; only the channel `error` and pictures that gain samples
   // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     const auto [r, g, b] = RgbD(radiance.rgb.at(i));
     const double mean = (r + g + b) / 3;
     sums_[i].squares += mean * mean;
@@ -331,7 +327,7 @@ void TileTracer::keepErrors(const Frame& frame) {
 void TileTracer::loadSums(const Frame& frame) {
   if (frame.firstSample == 0) return;
 
-  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
+  for (const auto i : indices(chunk_.pixels)) {
     const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
     if (frame.probes) sums_[i].total = frame.probes->at(x, y).total;
     if (frame.sums) sums_[i] = frame.sums->at(x, y);
@@ -342,7 +338,7 @@ void TileTracer::storeSums(const Frame& frame) {
   const bool toProbes = frame.probes && frame.firstSample == 0;
   if (!toProbes && !frame.sums) return;
 
-  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
+  for (const auto i : indices(chunk_.pixels)) {
     const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
     if (toProbes) frame.probes->at(x, y).total = sums_[i].total;
     if (frame.sums) frame.sums->at(x, y) = sums_[i];

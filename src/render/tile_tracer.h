@@ -69,7 +69,7 @@ class Workspace {
   // Makes `chunk` the queue's next chunk, which has no children yet.
   void takeChunk(int depth, Chunk& chunk);
   // Makes `chunk` the depth's current chunk again, after the queues of its children are drained.
-  void returnTo(int depth, Chunk& chunk) const;
+  void returnTo(int depth, Chunk& chunk);
   // Makes `chunk` the pixels of the whole batch, after all queues are drained.
   void returnToPixels(Chunk& chunk);
   // Makes room for `count` children, which become the queue of the next depth.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "core/index.h"
 #include "scene/members.h"
 
 namespace whit {
@@ -24,7 +25,7 @@ Vec3f between(const Vec3f& a, const Vec3f& b, double s) {
 }
 std::vector<float> between(std::vector<float> a, const std::vector<float>& b, double s) {
   if (a.size() != b.size()) return a;
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = between(a[i], b[i], s);
+  for (const auto i : indices(a)) a[i] = between(a[i], b[i], s);
   return a;
 }
 template <typename Enum>
@@ -34,7 +35,7 @@ requires std::is_enum_v<Enum> Enum between(Enum a, Enum /*b*/, double /*s*/) { r
 Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*point) {
   const Keyframe& before = path[i == 0 ? 0 : i - 1];
   const Keyframe& after = path[std::min(i + 1, path.size() - 1)];
-  const double seconds = static_cast<double>(after.time) - before.time;
+  const double seconds = double{after.time} - before.time;
   return (Vec3d(after.camera.*point) - Vec3d(before.camera.*point)) / seconds;
 }
 
@@ -158,7 +159,7 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   while (!(path[next].time > time)) ++next;
   const Keyframe &a = path[next - 1], &b = path[next];
 
-  const double seconds = static_cast<double>(b.time) - a.time, s = (time - a.time) / seconds;
+  const double seconds = double{b.time} - a.time, s = (time - a.time) / seconds;
   // Catmull-Rom splines are Hermite splines whose tangents come from the neighboring keyframes.
   const auto along = [&](Vec3f Camera::*point) {
     return hermite(Vec3d(a.camera.*point), velocity(path, next - 1, point) * seconds,

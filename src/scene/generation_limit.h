@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string>
 
 #include "core/error.h"
 #include "core/text.h"

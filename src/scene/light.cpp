@@ -1,7 +1,6 @@
 #include "scene/light.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <numeric>

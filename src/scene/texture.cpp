@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/huge_vector.h"
-#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -26,12 +25,10 @@ std::uint32_t roundedCode(double code) {
 }
 
 std::uint32_t colorCode(float linear) {
-  return roundedCode(std::sqrt(static_cast<double>(unit(linear))) * kColorMax);
+  return roundedCode(std::sqrt(double{unit(linear)}) * kColorMax);
 }
 
-std::uint32_t dataCode(float value) {
-  return roundedCode(static_cast<double>(unit(value)) * kDataMax);
-}
+std::uint32_t dataCode(float value) { return roundedCode(double{unit(value)} * kDataMax); }
 
 void copyTexels(const Texture& t, std::uint32_t* to) {
   const std::uint32_t* const rows = t.rows().data();

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -100,15 +101,13 @@ struct Texture {
   std::vector<std::uint32_t> texels;
   std::shared_ptr<SharedTexels> shared;  // stands for `texels` if it is set
 
-  std::uint32_t texel(int column, int row) const {
-    return rows()[static_cast<std::size_t>(row) * width + column];
-  }
+  std::uint32_t texel(int column, int row) const { return rows()[cellAt(column, row, width)]; }
   const std::vector<std::uint32_t>& rows() const { return shared ? shared->kept() : texels; }
   // Lets copies of the texture share its texels.
   void share() {
     if (!shared) shared = std::make_shared<SharedTexels>(std::exchange(texels, {}));
   }
-  std::size_t texelCount() const { return std::size_t{1} * width * height; }
+  std::size_t texelCount() const { return cellsOf(width, height); }
   // Returns the number of texels in its strips.
   std::size_t packedSize() const {
     return std::size_t{1} * (width / kTexelCells + 1) * (height + kTexelBorder) * kTexelStrip;

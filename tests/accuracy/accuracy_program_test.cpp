@@ -15,65 +15,67 @@
 namespace whit::accuracy {
 namespace {
 
-using cli::runWhit;
-
 std::string sourceFile(const std::string& name) {
   const char* source = std::getenv("WHIT_SOURCE_DIR");
   return std::string(source ? source : ".") + "/" + name;
 }
 
+class AccuracyProgram : public testing::Test {
+ protected:
+  // Runs `whit accuracy`, which must succeed, and reads its rows.
+  cli::Outcome sweep(std::vector<std::string> words) {
+    words.insert(words.begin(), "accuracy");
+    words.insert(words.end(), {"--out", out_});
+    const cli::Outcome outcome = cli::runWhit(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    rows_ = parseCsv(cli::readFile(out_ + "/sweep.csv"), "sweep.csv");
+    return outcome;
+  }
+
+  const cli::TemporaryFolder folder_;
+  const std::string tiny_ = cli::writeTinyScene(folder_), out_ = folder_ / "out";
+  std::vector<CsvRow> rows_;
+};
+
+void expectNarrowLines(const std::string& text) {
+  std::istringstream table(text);
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
 // The shipped scenes that take little time are swept with every knob. The terminal's table, the
 // rows and the report agree.
-TEST(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
-  const std::vector<std::string> scenes{"whitted", "glossy"};
-  const cli::TemporaryFolder folder;
-  const std::string out = folder / "out";
-  std::vector<std::string> words{"accuracy"};
-  words.insert(words.end(), scenes.begin(), scenes.end());
-  words.insert(words.end(), {"--out", out, "--size", "8x6", "--time-budget", "0.5"});
+TEST_F(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
+  expectNarrowLines(sweep({"whitted", "glossy", "--size", "8x6", "--time-budget", "0.5"}).out);
 
-  const cli::Outcome outcome = runWhit(words);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  std::istringstream table(outcome.out);
-  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
-
-  const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
   // How many points are on a front depends on how busy the machine is, so only their rounds are
   // tested.
-  for (const CsvRow& row : rows) {
+  for (const CsvRow& row : rows_) {
     const bool front = row.at("front") == "yes" || row.at("front_same_samples") == "yes";
     EXPECT_FALSE(front && std::stoi(row.at("rounds")) < kLeastRounds)
         << row.at("scene") << ", " << row.at("knob") << " " << row.at("value");
   }
 
   // The points of the report are the rows of the CSV file, in the same order.
-  const Json report = embeddedData(cli::readFile(out + "/report.html"));
-  ASSERT_EQ(report["scenes"].size(), scenes.size());
+  const Json report = embeddedData(cli::readFile(out_ + "/report.html"));
+  ASSERT_EQ(report["scenes"].size(), 2u);
   std::size_t at = 0;
   for (const Json& scene : report["scenes"]) {
     EXPECT_TRUE(scene["points"][0].contains("image_png"));
     for (const Json& point : scene["points"]) {
-      ASSERT_LT(at, rows.size());
-      EXPECT_EQ(point["scene"], rows[at].at("scene"));
-      EXPECT_EQ(point["value"], rows[at].at("value"));
-      EXPECT_NEAR(point["total_flip"].get<double>(), std::stod(rows[at].at("total_flip")), 1e-6);
+      ASSERT_LT(at, rows_.size());
+      EXPECT_EQ(point["scene"], rows_[at].at("scene"));
+      EXPECT_EQ(point["value"], rows_[at].at("value"));
+      EXPECT_NEAR(point["total_flip"].get<double>(), std::stod(rows_[at].at("total_flip")), 1e-6);
       ++at;
     }
   }
-  EXPECT_EQ(at, rows.size());
+  EXPECT_EQ(at, rows_.size());
 }
 
 // With no time to repeat, each point has only the one frame that its picture took.
-TEST(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
-  const cli::TemporaryFolder folder;
-  const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
-  ASSERT_EQ(runWhit({"accuracy", scene, "--out", out, "--size", "16x10", "--knobs", "depth,spp",
-                     "--time-budget", "0"})
-                .status,
-            0);
-
-  const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
-  for (const CsvRow& row : rows) {
+TEST_F(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
+  sweep({tiny_, "--size", "16x10", "--knobs", "depth,spp", "--time-budget", "0"});
+  for (const CsvRow& row : rows_) {
     if (row.at("kind") == "baseline") continue;
     EXPECT_EQ(row.at("frames"), "1");
     EXPECT_EQ(row.at("x_baseline_low"), "");
@@ -81,46 +83,32 @@ TEST(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
   }
 }
 
-TEST(AccuracyProgram, SweepsATinyScene) {
-  const cli::TemporaryFolder folder;
-  const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
-  const std::vector<std::string> words{"accuracy",      scene,   "--out",   out,
-                                       "--size",        "32x20", "--knobs", "depth,spp,fresnel",
-                                       "--time-budget", "1"};
-
-  const cli::Outcome outcome = runWhit(words);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+TEST_F(AccuracyProgram, SweepsATinyScene) {
+  const cli::Outcome outcome =
+      sweep({tiny_, "--size", "32x20", "--knobs", "depth,spp,fresnel", "--time-budget", "1"});
   EXPECT_TRUE(hasText(outcome.out, "tiny, 32x20"));
   EXPECT_TRUE(hasText(outcome.out, "depth=0"));
   EXPECT_TRUE(
       hasText(outcome.out, "not swept: fresnel: not among the effects of the scene: transm"));
 
-  const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
-  ASSERT_GE(rows.size(), 5u);
-  EXPECT_EQ(rows[0].at("value"), "standard");
-  EXPECT_EQ(rows[0].at("nonfinite"), "0");
-  EXPECT_EQ(rows[0].at("reference_samples"), "64");
-  EXPECT_NE(cli::readFile(out + "/report.html").find("</html>"), std::string::npos);
+  ASSERT_GE(rows_.size(), 5u);
+  EXPECT_EQ(rows_[0].at("value"), "standard");
+  EXPECT_EQ(rows_[0].at("nonfinite"), "0");
+  EXPECT_EQ(rows_[0].at("reference_samples"), "64");
+  EXPECT_NE(cli::readFile(out_ + "/report.html").find("</html>"), std::string::npos);
 }
 
 // A sweep against all transport has a fourth cause of errors, and states the truth's own error.
-TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
-  const cli::TemporaryFolder folder;
-  const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
-  const std::vector<std::string> words{"accuracy",      scene,       "--out",  out,
-                                       "--truth",       "transport", "--size", "24x16",
-                                       "--time-budget", "1"};
-
-  const cli::Outcome outcome = runWhit(words);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+TEST_F(AccuracyProgram, MeasuresAgainstAllTransport) {
+  const cli::Outcome outcome =
+      sweep({tiny_, "--truth", "transport", "--size", "24x16", "--time-budget", "1"});
   EXPECT_TRUE(hasText(outcome.out, "truth: all transport, by packets"));
   EXPECT_TRUE(hasText(outcome.out, "standard error of a pixel"));
 
-  std::istringstream table(outcome.out);
-  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
+  expectNarrowLines(outcome.out);
 
   std::map<std::string, CsvRow> rows;
-  for (const CsvRow& row : parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv")) {
+  for (const CsvRow& row : rows_) {
     EXPECT_EQ(row.at("truth"), "transport");
     rows[row.at("knob") + row.at("value")] = row;
   }
@@ -140,35 +128,14 @@ TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
 // The errors that are kept with the sources. To renew them after a change that is meant:
 // whit accuracy mirrors --size 32x20 --knobs depth,cutoff,spp --reference-spp 64 --out DIR, then
 // DIR/sweep.csv.
-TEST(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
-  const cli::TemporaryFolder folder;
-  const std::string out = folder / "out", kept = sourceFile("tests/accuracy/mirrors.csv");
-  const cli::Outcome outcome =
-      runWhit({"accuracy", "mirrors", "--out", out, "--size", "32x20", "--knobs",
-               "depth,cutoff,spp", "--time-budget", "1", "--reference-spp", "64"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+TEST_F(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
+  sweep({"mirrors", "--size", "32x20", "--knobs", "depth,cutoff,spp", "--time-budget", "1",
+         "--reference-spp", "64"});
 
+  const std::string kept = sourceFile("tests/accuracy/mirrors.csv");
   const auto before = parseCsv(cli::readFile(kept), kept);
-  const auto now = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
-  for (const std::string& line : grownErrors(before, now, {"depth", "cutoff", "spp"}))
+  for (const std::string& line : grownErrors(before, rows_, {"depth", "cutoff", "spp"}))
     ADD_FAILURE() << line;
-}
-
-TEST(AccuracyProgram, WrongUsageSaysWhatWasExpected) {
-  const auto status = [](std::vector<std::string> words, const std::string& said) {
-    words.insert(words.begin(), "accuracy");
-    const cli::Outcome outcome = runWhit(words);
-    EXPECT_TRUE(hasText(outcome.err, said));
-    return outcome.status;
-  };
-
-  const cli::TemporaryFolder folder;
-  const std::string out = folder / "out";
-  EXPECT_EQ(status({"mirrors"}, "--out DIR"), 2);
-  EXPECT_EQ(status({"mirrors", "--out", out, "--time-budget", "-1"}, "--time-budget"), 2);
-  EXPECT_EQ(status({"mirrors", "--out", out, "--truth", "life"}, "--truth"), 2);
-  EXPECT_EQ(status({"mirrors", "--out", out, "--knobs", "dept"}, "did you mean 'depth'?"), 2);
-  EXPECT_EQ(status({"mirrors", "--out", out, "--mode", "reference"}, "leave out --mode"), 2);
 }
 
 }  // namespace

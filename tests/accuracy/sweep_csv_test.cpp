@@ -75,52 +75,54 @@ TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
   }
 }
 
-TEST(CheckErrors, TheSamePasses) {
-  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(sweepOfTwo()), {}).empty());
+// The errors that have grown since sweepOfTwo().
+std::vector<std::string> grown(const SceneSweep& now, const std::vector<std::string>& knobs = {}) {
+  return grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), knobs);
 }
+
+TEST(CheckErrors, TheSamePasses) { EXPECT_TRUE(grown(sweepOfTwo()).empty()); }
 
 TEST(CheckErrors, SmallerErrorsAndOtherTimesPass) {
   SceneSweep better = sweepOfTwo();
   better.points[1].total.rmse = 0.1;
   better.points[1].timing.medianMs = 1e6;
-  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(better), {}).empty());
+  EXPECT_TRUE(grown(better).empty());
 }
 
 // The limit is 10 % more and the absolute slack: 0.2750 is just within, 0.2752 just beyond.
 TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
   SceneSweep now = sweepOfTwo();
   now.points[0].total.rmse = 0.2750;
-  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_TRUE(grown(now).empty());
 
   now.points[0].total.rmse = 0.2752;
-  const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {});
-  ASSERT_EQ(grown.size(), 1u);
-  EXPECT_TRUE(hasText(grown[0], "total_rmse was 0.25, is 0.2752"));
+  ASSERT_EQ(grown(now).size(), 1u);
+  EXPECT_TRUE(hasText(grown(now)[0], "total_rmse was 0.25, is 0.2752"));
 }
 
 // The limit is a tenth more than 30 %, and two of the 100 pixels: 35 %.
 TEST(CheckErrors, SharesHaveTwoPixelsOfSlack) {
   SceneSweep now = sweepOfTwo();
   now.points[1].total.pixelsGe1CodePct = 34.9;
-  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_TRUE(grown(now).empty());
   now.points[1].total.pixelsGe1CodePct = 35.1;
-  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+  EXPECT_EQ(grown(now).size(), 1u);
 }
 
 TEST(CheckErrors, NonFinitePixelsAndNanFail) {
   SceneSweep now = sweepOfTwo();
   now.points[0].total.nonFinite = 1;
-  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+  EXPECT_EQ(grown(now).size(), 1u);
   now = sweepOfTwo();
   now.points[0].total.rmse = std::nan("");
-  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+  EXPECT_EQ(grown(now).size(), 1u);
 }
 
 TEST(CheckErrors, MissingPointsFailUnlessTheirKnobWasLeftOut) {
   SceneSweep now = sweepOfTwo();
   now.points.pop_back();
-  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
-  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {"cutoff"}).empty());
+  EXPECT_EQ(grown(now).size(), 1u);
+  EXPECT_TRUE(grown(now, {"cutoff"}).empty());
 }
 
 // The rows say whether all transport is the truth and how far off that truth is. The rows of a
@@ -147,17 +149,17 @@ TEST(SweepCsv, SaysWhatTheTruthIs) {
 TEST(CheckErrors, AnotherTruthCannotBeCompared) {
   SceneSweep now = sweepOfTwo();
   now.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
-  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_FALSE(grown(now).empty());
   EXPECT_TRUE(grownErrors(rowsOf(now), rowsOf(now), {}).empty());
 }
 
 TEST(CheckErrors, AnotherReferenceCannotBeCompared) {
   SceneSweep now = sweepOfTwo();
   now.referenceSamples = 16;
-  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_FALSE(grown(now).empty());
   now = sweepOfTwo();
   now.scene = "other";
-  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_FALSE(grown(now).empty());
 }
 
 // RFC 4180, section 2: a carriage return would end the record for many readers.

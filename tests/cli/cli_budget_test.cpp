@@ -9,25 +9,8 @@
 namespace whit::cli {
 namespace {
 
-class BudgetCommands : public TinySceneTest {
- protected:
-  void expectRefused(const std::string& why, const Words& words) const {
-    expectFailure(joined({"render", tiny_, "-o", folder_ / "a.exr", "--quiet"}, words), 2, why);
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.exr"));
-  }
-};
-
-TEST_F(BudgetCommands, AreRefusedWithTheReason) {
-  expectRefused("as 50ms, 10s or 2min, found '50'", {"--budget", "50"});
-  expectRefused("as 0.5codes or flip=0.01, found '1'", {"--target", "1"});
-  expectRefused("give one of them", {"--budget", "1s", "--target", "flip=0.1"});
-  expectRefused("leave out --resume", {"--budget", "1s", "--resume"});
-  expectRefused("what --quality sets", {"--budget", "1s", "--quality", "good"});
-  expectRefused("leave out --mode reference", {"--budget", "1s", "--mode", "reference"});
-}
-
 // The last line of the receipt is a command, which makes the same pixels.
-TEST_F(BudgetCommands, PrintTheCommandOfTheSamePicture) {
+TEST(BudgetCommands, PrintTheCommandOfTheSamePicture) {
   for (const std::string option : {"--budget=80ms", "--target=1.5codes"}) {
     const TemporaryFolder folder;
     const Outcome outcome = succeed(

@@ -99,14 +99,5 @@ TEST_F(EffectsCommand, AddsOnlyWhatTheSceneHas) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2) << csv;  // smooth normals, a mirror
 }
 
-TEST_F(EffectsCommand, RefusesWrongUsage) {
-  EXPECT_EQ(runWhit({"effects"}).status, 2);
-  EXPECT_EQ(runWhit({"effects", "--out", "x", "--disable", "sky"}).status, 2);
-  EXPECT_EQ(runWhit({"effects", "--out", "x", "--mode", "reference"}).status, 2);
-  EXPECT_EQ(runWhit({"effects", "--out", "/proc/no/such"}).status, 4);
-  const Outcome help = succeed({"effects", "--help"});
-  EXPECT_TRUE(hasText(help.out, "--out DIR"));
-}
-
 }  // namespace
 }  // namespace whit::cli

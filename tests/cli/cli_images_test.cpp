@@ -281,10 +281,6 @@ TEST_F(Images, GoToStandardOutputAsPng) {
   EXPECT_TRUE(both.out == readFile(folder_ / "f0.png") + readFile(folder_ / "f1.png"));
   EXPECT_TRUE(hasText(both.err, "wrote 2 images"));
 
-  for (const Words& more : {Words{"-o", "-"}, {"--json", "-"}, {"--resume"}}) {
-    expectFailure(joined({"render", tiny_, "-o", "-"}, more), 2, "-o -");
-  }
-
   // A full device is an error of writing.
   const Outcome full = runWhit({"render", tiny_, "-o", "-"},
                                [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
@@ -362,15 +358,6 @@ TEST_F(Images, AreWrittenAsJpeg) {
   for (std::size_t i = 0; i < png.codes.size(); ++i) sum += std::abs(png.codes[i] - jpeg.codes[i]);
   EXPECT_LT(sum / static_cast<double>(png.codes.size()), 8);
   EXPECT_GT(sum, 0);
-}
-
-TEST_F(Images, WhatHasNoAlphaIsSaid) {
-  const auto refused = [&](const Words& words, const std::string& why) {
-    expectFailure(joined({"render", tiny_}, words), 2, why);
-  };
-  refused({"-o", folder_ / "a.jpg", "--background", "transparent"}, "has no alpha");
-  refused({"-o", folder_ / "a.jpg", "--resume"}, "JPEG");
-  refused({"-o", folder_ / "a.png", "--background", "orange"}, "ff8000");
 }
 
 TEST_F(Images, AnInterruptionLeavesOnlyWholeFiles) {

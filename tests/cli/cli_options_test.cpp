@@ -71,18 +71,13 @@ struct BadWords {
 
 TEST(Options, SaysWhatWasExpected) {
   const BadWords cases[] = {
-      {{"s", "--size", "640"}, "WIDTHxHEIGHT"},
-      {{"s", "--size", "0x10"}, "WIDTHxHEIGHT"},
       {{"s", "--size", "10x10x10"}, "WIDTHxHEIGHT"},
-      {{"s", "--size", "99999999999x1"}, "WIDTHxHEIGHT"},
       {{"s", "--size", "65537x1"}, "65536"},
-      {{"s", "--eye", "1,2"}, "x,y,z"},
       {{"s", "--eye", "1,2,x"}, "x,y,z"},
       {{"s", "--eye", "1,2,nan"}, "x,y,z"},
       {{"s", "--eye", "1,2,inf"}, "x,y,z"},
       {{"s", "--crop", "4,0,4,9"}, "x0 < x1"},
       {{"s", "--crop", "-1,0,4,9"}, "x0 < x1"},
-      {{"s", "--spp", "0"}, "from 1 to 4096"},
       {{"s", "--spp", "1.5"}, "whole number"},
       {{"s", "--depth", "65"}, "from 0 to 64"},
       {{"s", "--cutoff", "-1"}, "from 0 to 1"},
@@ -91,15 +86,11 @@ TEST(Options, SaysWhatWasExpected) {
       {{"s", "--mode", "packet"}, "did you mean 'packets'?"},
       {{"s", "--tonemap", "filmc"}, "did you mean 'filmic'?"},
       {{"s", "--robust", "yes"}, "on or off"},
-      {{"s", "--disable", "shadow"}, "did you mean 'shadows'?"},
       {{"s", "--disable", "vertexColours"}, "did you mean 'vertexColors'?"},
       {{"s", "--fov", "180"}, "from 0.001 to 179"},
-      {{"s", "--size"}, "--size: expected WxH after it"},
       {{"s", "--sise", "10x10"}, "did you mean '--size'?"},
       {{"s", "--sise=10x10"}, "no option '--sise'"},
       {{"s", "-z"}, "no option '-z'"},
-      {{"s", "t"}, "one word too many: 't'"},
-      {{}, "expected SCENE"},
   };
   for (const BadWords& c : cases) {
     const std::string words = testing::PrintToString(c.words);

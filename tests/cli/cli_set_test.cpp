@@ -65,18 +65,5 @@ TEST_F(Set, EveryCommandTakesIt) {
   EXPECT_FALSE(hasText(readFile(folder_ / "made/effects.csv"), "\nmirror,"));
 }
 
-TEST_F(Set, WrongOnesSayWhere) {
-  const auto refused = [&](const std::string& setting, int status, const std::string& why) {
-    expectFailure({"info", tiny_, "--set", setting}, status, why);
-  };
-
-  refused("/lights/0/intensity", 2, "POINTER=VALUE");
-  refused("/lights/3/intensity=1", 3, "tiny.json#/lights/3");
-  refused("/lights/0/intensitty=1", 3, "tiny.json#/lights/0/intensitty");
-  refused("/lights/0/intensity=true", 3, "tiny.json#/lights/0/intensity");
-
-  expectFailure({"compare", "a.exr", "b.exr", "--set", kMatte}, 2, "--set");
-}
-
 }  // namespace
 }  // namespace whit::cli

@@ -85,10 +85,6 @@ TEST(Verify, ASheetOfAllScenes) {
   EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
 }
 
-TEST(Verify, FormerNamesLeadToThePresentOnes) {
-  expectFailure({"stress"}, 2, "whit stress is a program of its own: whit-verify");
-}
-
 TEST(Verify, HelpListsTheOptions) {
   const Outcome outcome = runVerify({"--help"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

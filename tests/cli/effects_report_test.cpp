@@ -103,17 +103,15 @@ TEST(EffectsRows, SayWhatIsNoise) {
   EXPECT_TRUE(hasText(effectsTable(effectsJson(steps, {})), "~    +5.00  unknown "));
 }
 
-// The ranks of the sign test: of 20 values the fifth from each end, whatever their order.
-TEST(MedianInterval, HoldsTheMiddleValues) {
-  EXPECT_EQ(medianInterval({}).high, 0);
-  EXPECT_EQ(medianInterval({3}).low, 3);
-  EXPECT_EQ(medianInterval({3, 1, 2}).low, 1);
-  EXPECT_EQ(medianInterval({3, 1, 2}).high, 3);
-
-  std::vector<double> values;
-  for (int i = 1; i <= 20; ++i) values.push_back(21 - i);
-  EXPECT_EQ(medianInterval(values).low, 5);
-  EXPECT_EQ(medianInterval(values).high, 16);
+// The interval has a confidence of 95 %. Of 20 values five are left out at either end, because
+// twice the sum of the binomial coefficients of 20 up to the fifth is 43,400, at most a twentieth
+// of 2^20; up to the sixth it is 120,920.
+TEST(EffectsRows, LeaveOutTheOutermostOfManyTurns) {
+  std::vector<double> ms;
+  for (int i = 20; i > 0; --i) ms.push_back(i);
+  const nlohmann::ordered_json row = effectsRows({{"matte", madeUpRun(ms, 0), 1.5}})[0];
+  EXPECT_EQ(row["added_ms_low"], 6);
+  EXPECT_EQ(row["added_ms_high"], 15);
 }
 
 TEST(EffectsRows, AreTheLinesOfTheCsvFile) {

@@ -222,30 +222,31 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
   const Scene scene2 = std::move(scene);
   const SceneBuilder builder2 = std::move(builder);
 
-  const auto refuses = [](const std::function<void()>& use) {
+  Image image;
+  const std::function<void()> uses[] = {
+      [&] { renderer.render(); },
+      [&] { renderer.renderOnPath(0, image); },
+      [&] { renderer.set("depth", "3"); },
+      [&] { renderer.get("depth"); },
+      [&] { renderer.reset(); },
+      [&] { renderer.setTime(1); },
+      [&] { renderer.setTransform("/scene/0", kIdentity); },
+      [&] { renderer.setMember("/lights/0/intensity", "4"); },
+      [&] { renderer.setProgress({}); },
+      [&] { static_cast<void>(renderer.scene()); },
+      [&] { static_cast<void>(renderer.statistics()); },
+      [&] { static_cast<void>(scene.name()); },
+      [&] { scene.warnings(); },
+      [&] { Renderer(scene).render(); },
+      [&] { builder.addLight({}); },
+      [&] { builder.build(); },
+      [&] { SceneBuilder copy(builder); },
+  };
+  for (const auto& use : uses) {
     const Error error = errorOf(use);
     EXPECT_TRUE(hasText(error.what(), "after a move"));
-    return error.status();
-  };
-
-  Image image;
-  EXPECT_EQ(refuses([&] { renderer.render(); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.renderOnPath(0, image); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.set("depth", "3"); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.get("depth"); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.reset(); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.setTime(1); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.setTransform("/scene/0", kIdentity); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.setMember("/lights/0/intensity", "4"); }), 2);
-  EXPECT_EQ(refuses([&] { renderer.setProgress({}); }), 2);
-  EXPECT_EQ(refuses([&] { static_cast<void>(renderer.scene()); }), 2);
-  EXPECT_EQ(refuses([&] { static_cast<void>(renderer.statistics()); }), 2);
-  EXPECT_EQ(refuses([&] { static_cast<void>(scene.name()); }), 2);
-  EXPECT_EQ(refuses([&] { scene.warnings(); }), 2);
-  EXPECT_EQ(refuses([&] { Renderer(scene).render(); }), 2);
-  EXPECT_EQ(refuses([&] { builder.addLight({}); }), 2);
-  EXPECT_EQ(refuses([&] { builder.build(); }), 2);
-  EXPECT_EQ(refuses([&] { SceneBuilder copy(builder); }), 2);
+    EXPECT_EQ(error.status(), 2);
+  }
 
   renderer = smallRenderer();  // a renderer that was moved from can be assigned to
   EXPECT_EQ(renderer.render().width(), 40);
@@ -260,16 +261,19 @@ TEST(Library, TheVersionIsInTheHeader) {
 
 TEST(Library, FailsWithTheProgramsStatus) {
   Renderer renderer = smallRenderer();
-  EXPECT_EQ(statusOf([&] { renderer.set("detph", "3"); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.set("depth", "many"); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.get("sise"); }), 2);
-  EXPECT_EQ(statusOf([] { loadScene("no-such-scene"); }), 2);
-  EXPECT_EQ(statusOf([] { loadScene("no/such/file.json"); }), 4);
-  EXPECT_EQ(statusOf([] { Image().write("nothing.png"); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.render().write("no/such/folder/a.png"); }), 4);
-  EXPECT_EQ(statusOf([&] { renderer.render().write("a.gif"); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.set("camera", "nobody").render(); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.set("camera", "").set("size", "65536x65536").render(); }), 5);
+  const std::pair<int, std::function<void()>> failures[] = {
+      {2, [&] { renderer.set("detph", "3"); }},
+      {2, [&] { renderer.set("depth", "many"); }},
+      {2, [&] { renderer.get("sise"); }},
+      {2, [] { loadScene("no-such-scene"); }},
+      {4, [] { loadScene("no/such/file.json"); }},
+      {2, [] { Image().write("nothing.png"); }},
+      {4, [&] { renderer.render().write("no/such/folder/a.png"); }},
+      {2, [&] { renderer.render().write("a.gif"); }},
+      {2, [&] { renderer.set("camera", "nobody").render(); }},
+      {5, [&] { renderer.set("camera", "").set("size", "65536x65536").render(); }},
+  };
+  for (const auto& [status, fail] : failures) EXPECT_EQ(statusOf(fail), status);
 
   renderer.set("size", "16x16");
   EXPECT_EQ(renderer.render().width(), 16);  // an error does not end the renderer

@@ -431,6 +431,28 @@ TEST_F(ExrTest, CubesBecomeSkies) {
   }
 }
 
+TEST_F(ExrTest, OtherPrimariesAreSaidToBeLeftOut) {
+  const auto warnedOf = [&](const Imf::Chromaticities* primaries) {
+    ForeignFile foreign;
+    foreign.channels = {{"R", 1.0f}, {"G", 1.0f}, {"B", 1.0f}};
+    Imf::Header header = foreign.header();
+    if (primaries) Imf::addChromaticities(header, *primaries);
+    {
+      Imf::OutputFile output(path("primaries.exr").c_str(), header);
+      fill(foreign, output);
+    }
+    Warnings warnings;
+    readRawImage(path("primaries.exr"), limits_, warnings);
+    return warnings.entries().size();
+  };
+  const Imf::Chromaticities rec709;
+  const Imf::Chromaticities rec2020({0.708f, 0.292f}, {0.17f, 0.797f}, {0.131f, 0.046f},
+                                    {0.3127f, 0.329f});
+  EXPECT_EQ(warnedOf(nullptr), 0u);
+  EXPECT_EQ(warnedOf(&rec709), 0u);
+  EXPECT_EQ(warnedOf(&rec2020), 1u);
+}
+
 TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
   Image image(2, 1);
   image.pixels = {Rgb(std::nanf(""), -1, std::numeric_limits<float>::infinity()),

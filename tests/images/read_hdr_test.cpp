@@ -35,6 +35,33 @@ TEST_F(ReadHdr, RunsOfOlderFiles) {
             ": byte 26: expected a run up to the row's end, found a longer one");
 }
 
+// Values are divided by the product of all lines; lines of earlier pictures are indented.
+TEST_F(ReadHdr, ExposuresAndColorCorrectionsAreUndone) {
+  const auto rgb = [&](const std::string& lines) {
+    const Bytes file = hdrOf("#?RADIANCE\n" + lines + "\n-Y 1 +X 1\n", {16, 32, 64, 136});
+    return linearPixel(readRawImage(save("a.hdr", file), limits_, warnings_), 0);
+  };
+  EXPECT_EQ(rgb("EXPOSURE=4.0\nEXPOSURE= 2\n\tEXPOSURE=7\n"), Rgb(2, 4, 8));
+  EXPECT_EQ(rgb("COLORCORR=1 2 4\nEXPOSURE=0.5\n"), Rgb(32, 32, 32));
+  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nEXPOSURE=0\n\n", {})),
+            ": byte 18: expected a factor above 0 for each channel, found EXPOSURE=0");
+  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nCOLORCORR=1 2\n\n", {})),
+            ": byte 21: expected a factor above 0 for each channel, found COLORCORR=1 2");
+}
+
+TEST_F(ReadHdr, OtherPrimariesAreSaidToBeLeftOut) {
+  const auto warnedOf = [&](const std::string& primaries) {
+    Warnings warnings;
+    readRawImage(save("a.hdr", hdrOf("#?RGBE\n" + primaries + "\n-Y 1 +X 1\n", {1, 1, 1, 136})),
+                 limits_, warnings);
+    return warnings.entries().size();
+  };
+  EXPECT_EQ(warnedOf(""), 0u);
+  EXPECT_EQ(warnedOf("PRIMARIES=.64 .33 .29 .6 .15 .06 .333 .333\n"), 0u);
+  EXPECT_EQ(warnedOf("PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n"), 0u);
+  EXPECT_EQ(warnedOf("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n"), 1u);
+}
+
 TEST_F(ReadHdr, DamageIsToldWithItsPlace) {
   EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nFORMAT=32-bit_rle_xyze\n\n", {})),
             ": byte 30: expected FORMAT=32-bit_rle_rgbe, found FORMAT=32-bit_rle_xyze");

@@ -1,5 +1,5 @@
 // Broken files of every format: the error has the status of its kind, names the file and the place
-// in it, and is short whatever the file contains.
+// in it, and is short whatever the file contains. Messages are tested beside each reader.
 #include "bake/scene.h"
 #include "has_text.h"
 #include "scene_files.h"
@@ -25,12 +25,7 @@ std::vector<Broken> scenes() {
   };
 
   return {
-      {"s.json", "{\"whit\": 1,", kBad, ":1:12"},
-      {"s.json", "{\"whit\": 2}", kBad, "#/whit"},
-      {"s.json", scene("\"sice\": [1, 1]"), kBad, "#/sice"},
       {"s.json", scene("\"" + kLong + "\": 1"), kBad, "#/xxx"},
-      {"s.json", scene("\"size\": [1, 1], \"size\": [1, 1]"), kBad, "#/size"},
-      {"s.json", scene("\"size\": [1e999, 1]"), kBad, "#/size/0"},
       {"s.json", scene("\"sky\": " + std::string(100, '[')), kBad, "#/sky/0"},
       {"s.json", scene("\"sky\": {\"image\": \"none.hdr\"}"), kIo, "#/sky/image"},
       {"s.json", texture("none.png"), kIo, "#/textures/t/image"},
@@ -68,8 +63,6 @@ std::vector<Broken> gltfFiles() {
 
   return {
       {"m.gltf", "{\"asset\":", kBad, ":1:10"},
-      {"m.gltf", "{\"asset\": {\"version\": \"1.0\"}}", kBad, "#/asset/version"},
-      {"m.gltf", "{}", kBad, "#"},
       {"m.gltf", gltf("\"extensionsRequired\": [\"" + kLong + "\"]"), kBad,
        "#/extensionsRequired/0"},
       {"m.gltf", buffer("none.bin"), kIo, "#/buffers/0/uri"},
@@ -80,9 +73,6 @@ std::vector<Broken> gltfFiles() {
       {"m.gltf", accessor("\"componentType\": 5126, \"count\": 2"), kBad, "#/accessors/0"},
       {"m.gltf", accessor("\"componentType\": 1, \"count\": 1"), kBad,
        "#/accessors/0/componentType"},
-      {"m.gltf", gltf("\"nodes\": [{\"mesh\": 5}]"), kBad, "#/nodes/0/mesh"},
-      {"m.gltf", gltf("\"nodes\": [{\"children\": [0]}], \"scenes\": [{\"nodes\": [0]}]"), kBad,
-       "#/nodes/0"},
       {"m.gltf", gltf("\"images\": [{}]"), kBad, "#/images/0"},
       {"m.glb", "glTF", kBad, ": byte 0"},
       {"m.glb", "glTF\1\0\0\0\14\0\0\0"s, kBad, ": byte 4"},
@@ -100,11 +90,9 @@ std::vector<Broken> otherModels() {
       "property float z\n";
 
   return {
-      {"m.obj", "v 0 0 0\nv 1\n", kBad, ":2"},
       {"m.obj", "vt " + kLong, kBad, ":1"},
       {"m.ply", kLong + "\n", kBad, ":1"},
       {"m.ply", "ply\nformat " + kLong + " 1.0\n", kBad, ":2"},
-      {"m.ply", ply + "element vertex many\n", kBad, ":3"},
       {"m.ply", ply + "element vertex 1\nproperty " + kLong + " x\n", kBad, ":4"},
       {"m.ply", ply + "element " + kLong + " 99\nproperty int i\nend_header\n", kBad, ":3"},
       {"m.ply", ply + "element vertex 1\nproperty float x\nend_header\n1\n", kBad, ":3"},
@@ -124,15 +112,11 @@ std::vector<Broken> otherModels() {
 // Lists images, each of which a texture of the scene names.
 std::vector<Broken> images() {
   const std::string png = "\x89PNG\r\n\x1a\n"s;
-  std::string bmp = "BM" + std::string(60, '\0');
-  bmp[14] = 12;
-
   return {
       {"t.png", png, kBad, ": byte 8"},
       {"t.png", png + "\0\0\0\15IHDR"s, kBad, ": byte 16"},
       {"t.jpg", "\xff\xd8\xff", kBad, ": byte "},
       {"t.jpg", "\xff\xd8\xff\xe0" + std::string(40, 'x'), kBad, ": byte "},
-      {"t.bmp", bmp, kBad, ": byte 18"},
       {"t.bmp", "BM", kBad, ": byte 0"},
       {"t.tga", std::string(18, '\7'), kBad, ": byte "},
       {"t.hdr", "#?RADIANCE\nFORMAT=" + std::string(900, 'x') + "\n\n", kBad, ": byte "},

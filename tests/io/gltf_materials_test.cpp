@@ -342,6 +342,28 @@ TEST_F(GltfMaterials, TransmissionIsADielectric) {
 
 // A wall that fades from white to black, behind a pane that is turned by 45 degrees. A surface of
 // ior 1.5 bends the ray towards its normal, which leads to the left.
+// A thin wall follows the extension, and a solid whose factors are 1 leaves out nothing.
+TEST_F(GltfMaterials, SpecularFactorsOfSolidsAreSaidToBeLeftOut) {
+  const char* const kind =
+      "KHR_materials_specular of a material with a volume left out, but for the highlights of "
+      "lights: it reflects by its ior alone";
+  const auto warnedOf = [&](const std::string& specular, const std::string& thickness) {
+    const std::uint64_t before = warned(kind);
+    loadText(
+        sceneText({{0,
+                    "{\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1},"
+                    "\"KHR_materials_volume\":{\"thicknessFactor\":" +
+                        thickness + "},\"KHR_materials_specular\":{" + specular + "}}}",
+                    1}}));
+    return warned(kind) - before;
+  };
+
+  EXPECT_EQ(warnedOf("\"specularFactor\":0.5", "1"), 1u);
+  EXPECT_EQ(warnedOf("\"specularColorFactor\":[1,0,0]", "1"), 1u);
+  EXPECT_EQ(warnedOf("\"specularFactor\":1,\"specularColorFactor\":[1,1,1]", "1"), 0u);
+  EXPECT_EQ(warnedOf("\"specularFactor\":0.5", "0"), 0u);
+}
+
 TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   candela_ = 0;
   save("halves.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 0}}));
@@ -444,6 +466,24 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
       "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}";
   expectColor(reflected(glass, 64), Rgb(0.04f, 0.02f, 0.01f) * 0.916f);
   expectColor(reflected(glass, 0), Rgb{0.04f, 0.02f, 0.01f});
+}
+
+TEST_F(GltfMaterials, EmissionBelowAClearcoatIsSaidNotToBeDimmed) {
+  const char* const kind =
+      "emission below a clearcoat not dimmed by it: too bright by what the coat reflects";
+  const auto warnedOf = [&](const std::string& coat, const std::string& emission) {
+    const std::uint64_t before = warned(kind);
+    loadText(sceneText(
+        {{0,
+          "{\"emissiveFactor\":" + emission +
+              ",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":" + coat + "}}}",
+          1}}));
+    return warned(kind) - before;
+  };
+
+  EXPECT_EQ(warnedOf("1", "[0,0.5,0]"), 1u);
+  EXPECT_EQ(warnedOf("0", "[0,0.5,0]"), 0u);
+  EXPECT_EQ(warnedOf("1", "[0,0,0]"), 0u);
 }
 
 TEST_F(GltfMaterials, EmissionAndUnlit) {

@@ -314,6 +314,23 @@ TEST_F(GltfMotion, MorphTargetsAddUp) {
   EXPECT_EQ(warned("morph targets left out"), 0u);
 }
 
+// A target without weight shows nothing that would be missing.
+TEST_F(GltfMotion, MorphTargetsOfColorsAndCoordinatesAreSaidToBeLeftOut) {
+  const char* const kind =
+      "colors or texture coordinates of a morph target left out: they stay as they are";
+  GltfBuilder b;
+  const std::string moved = b.positions({1, 0, 0, 0, 0, 0, 0, 0, 0});
+  const std::string primitive =
+      triangle(b, ",\"targets\":[{\"POSITION\":" + moved + ",\"COLOR_0\":" + moved + "}]");
+  const auto loadWeighted = [&](const std::string& weight) {
+    loadText(b.json(replaced(oneMesh(primitive), "]}],\"nodes\"",
+                             "],\"weights\":[" + weight + "]}],\"nodes\"")));
+    return warned(kind);
+  };
+  EXPECT_EQ(loadWeighted("0"), 0u);
+  EXPECT_EQ(loadWeighted("0.5"), 1u);
+}
+
 // Two joints lie one above the other, at heights 0 and 1. The upper one is turned by a right angle
 // about z. The corners of the triangle lie at heights 0, 1 and 2.
 class GltfSkin : public GltfMotion {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "decoded_texel.h"
+#include "gltf_pictures.h"
 #include "scene/texture.h"
 #include "scene_files.h"
 
@@ -347,6 +348,44 @@ TEST_F(Mtl, AlphaOfTheColorCuts) {
   EXPECT_EQ(textureOf(masked, masked.materials[0].alphaMap).texels[1] & 0xffu, 9u);
   const SceneDescription same = loadWith("map_Kd cut.tga\nmap_d cut.tga\n");
   EXPECT_EQ(textureOf(same, same.materials[0].alphaMap).texels[1] & 0xffu, 10u);
+}
+
+// "The map_d value is multiplied by the d value". Masks stay masks though their edges are soft.
+TEST_F(Mtl, GrayMasksAreCoverage) {
+  save("gray.tga", tga(2, 1, {{100}, {200}}));
+  const SceneDescription gray = loadWith("d 0.5\nmap_d gray.tga\n");
+  const Material& m = gray.materials[0];
+  EXPECT_EQ(m.coverage, 0.5f);
+  EXPECT_TRUE(m.thin);
+  EXPECT_EQ(m.coverageMap, m.alphaMap);
+  EXPECT_EQ(m.alphaCutoff, kClearCoverage);
+  EXPECT_EQ(textureOf(gray, m.coverageMap).texels[0] & 0xffu, 100u);
+
+  save("color.tga", tga(1, 1, {{255, 0, 0, 100}}));
+  const SceneDescription color = loadWith("map_Kd color.tga\n");
+  ASSERT_NE(color.materials[0].coverageMap, kNoTexture);
+  EXPECT_EQ(textureOf(color, color.materials[0].coverageMap).texels[0] & 0xffu, 100u);
+
+  save("soft.tga", tga(4, 1, {{0}, {100}, {200}, {255}}));
+  const Material soft = materialOf("map_d soft.tga\n");
+  EXPECT_NE(soft.alphaMap, kNoTexture);
+  EXPECT_EQ(soft.coverageMap, kNoTexture);
+  EXPECT_EQ(soft.alphaCutoff, 0.5f);
+}
+
+// A square that glows with 1 before black is seen as its coverage.
+TEST_F(GltfMaterials, GrayMasksOfMtlLetTheRestThrough) {
+  save("gray.tga", tga(1, 1, {{100}}));
+  constexpr int kSide = 9, kMiddle = kSide * kSide / 2;
+  const auto middle = [&](const std::string& dissolve) {
+    save("m.mtl", "newmtl m\nKd 0 0 0\nKe 1 1 1\nmap_d gray.tga\n" + dissolve);
+    const SceneDescription scene = loadObj(
+        "mtllib m.mtl\nusemtl m\nvt 0 0\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+        "f 1/1 2/1 3/1 4/1\n");
+    return pictureOf(scene, kSide)[kMiddle];
+  };
+  expectColor(middle(""), Rgb(100.0f / 255));
+  expectColor(middle("d 0.5\n"), Rgb(50.0f / 255));
 }
 
 TEST_F(Mtl, BumpMapsOfHeightsBecomeNormals) {

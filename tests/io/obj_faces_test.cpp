@@ -1,4 +1,5 @@
 // OBJ files as they should be, and as other programs write them.
+#include <array>
 #include <map>
 
 #include "bake/scene.h"
@@ -82,6 +83,30 @@ TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
   EXPECT_EQ(mesh.uvs[t[2]], (Vec2f{0.75f, 0}));
   EXPECT_EQ(mesh.normals[t[0]], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.normals[t[1]], Vec3f(0, 1, 0));
+}
+
+// Nothing is said of faces whose material has no texture.
+TEST_F(ObjFaces, FacesThatLackTheCoordinatesOfTheirTextureAreCounted) {
+  save("a.tga", tga(1, 1, {{255, 0, 0}}));
+  save("m.mtl", "newmtl mapped\nmap_Kd a.tga\nnewmtl plain\nKd 1 0 0\n");
+  loadObj(std::string("mtllib m.mtl\nvt 0 0\n") + kSquare +
+          "f 1 2 3\nusemtl plain\nf 1 2 3\nusemtl mapped\nf 1/1 2/1 3/1\nf 1/1 2/1 4\nf 1 3 4\n");
+  EXPECT_EQ(warned("face without texture coordinates has the texel at (0, 0) of its material's "
+                   "textures"),
+            2u);
+}
+
+// A face is turned if all of its corners say so: not if one does not, and not without normals.
+TEST_F(ObjFaces, TheNormalsOfCornersDecideWhichSideIsTheFront) {
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvn 0 0 1\n";
+  using Triple = std::array<std::uint32_t, 3>;
+  const auto windingOf = [&](const char* face) {
+    return meshOf(loadObj(quad + face)).triangles.at(0);
+  };
+  EXPECT_EQ(windingOf("f 1//1 2//1 3//1\n"), (Triple{0, 2, 1}));
+  EXPECT_EQ(windingOf("f 1//2 2//2 3//2\n"), (Triple{0, 1, 2}));
+  EXPECT_EQ(windingOf("f 1//1 2//1 3//2\n"), (Triple{0, 1, 2}));
+  EXPECT_EQ(windingOf("s off\nf 1 2 3\n"), (Triple{0, 1, 2}));
 }
 
 TEST_F(ObjFaces, FacesThatLackANormalAreFlat) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,15 @@ class SceneFileTest : public testing::Test {
     std::filesystem::create_directories(std::filesystem::path(root_ + name).parent_path());
     std::ofstream(root_ + name, std::ios::binary) << text;
     return root_ + name;
+  }
+
+  // Returns the bytes of a file of the fuzzers' corpus.
+  static std::string corpusFile(const std::string& name) {
+    const char* source = std::getenv("WHIT_SOURCE_DIR");
+    const std::string path = std::string(source ? source : ".") + "/tests/fuzz/corpus/" + name;
+    std::ifstream in(path, std::ios::binary);
+    EXPECT_TRUE(in) << path;
+    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   SceneDescription load(const std::string& name) { return loadScene(name, options_, warnings_); }

@@ -116,6 +116,40 @@ TEST_F(SuppliedView, TheStudioIsAsBrightAsItsLights) {
   EXPECT_NEAR(bright.ambient.up.x / dim.ambient.up.x, 1e5f, 10);
 }
 
+// An item's own lights and cameras follow its transform, and no lamps are supplied beside them.
+TEST_F(SuppliedView, ModelsOfASceneWithAViewBringTheirLightsAndCameras) {
+  const SceneDescription alone = loadLit(5, "[0,0,0,1]");
+  const std::string item =
+      R"({"model": "lit.gltf", "transform": {"scale": 2, "translate": [1, 0, 0]}})";
+  const SceneDescription scene = loadMembers(R"("view": "model", "scene": [)" + item + "]");
+  EXPECT_EQ(kinds(), "");
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].position, alone.lights.at(0).position * 2.0f + Vec3f(1, 0, 0));
+  EXPECT_EQ(scene.lights[0].intensity, alone.lights[0].intensity);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(scene.cameras[0].name, "own");
+  EXPECT_EQ(scene.cameras[0].eye, alone.cameras.at(0).eye * 2.0f + Vec3f(1, 0, 0));
+  EXPECT_EQ(skyName(scene.sky), "studio");
+}
+
+TEST_F(SuppliedView, LightsAndCamerasOfOtherItemsAreLeftOutAloud) {
+  loadLit(5, "[0,0,0,1]");
+  const char* const kind =
+      "cameras and lights of a model left out: a scene states its own, or takes those of the "
+      "models "
+      "in \"scene\", placed once and at rest, by \"view\": \"model\"";
+  const std::string model = R"({"model": "lit.gltf")";
+  EXPECT_TRUE(loadMembers(R"("scene": [)" + model + "}]").lights.empty());
+  EXPECT_EQ(warned(kind), 2u);
+
+  // It is not said where they would stand.
+  const std::string repeat = R"(, "repeat": {"count": [2, 1, 1], "step": [3, 0, 0]}})";
+  loadMembers(R"("view": "model", "scene": [)" + model + repeat + "]");
+  EXPECT_EQ(warned(kind), 4u);
+  loadMembers(R"("view": "model", "scene": [{"group": [)" + model + "}]}]");
+  EXPECT_EQ(warned(kind), 6u);
+}
+
 // The description of ambient light, set on a model, replaces all that a model is supplied with.
 TEST_F(SuppliedView, AmbientLightIsDescribedAsAWhole) {
   EXPECT_GT(loadObj(kTriangleObj).ambient.occlusion, 0);

@@ -132,7 +132,7 @@ class Cameras(unittest.TestCase):
     def test_a_moving_camera_is_told_where_it_is(self):
         camera = {"eye": [0, 0, 5], "at": [0, 0, 0], "motion": {
             "keys": [{"time": 0}, {"time": 1, "translate": [1, 2, 0]}]}}
-        scene = whit.Scene({"cameras": {"a": camera}, "scene": []})
+        scene = whit.Scene({"cameras": {"a": camera}, "scene": []}, moves=True)
         for time in (0.25, 1, 0.5, 0):
             scene.set_time(time)
             assert_allclose(scene.camera().pose[:3, 3], [time, 2 * time, 5], atol=1e-6)

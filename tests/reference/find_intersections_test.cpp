@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
@@ -64,26 +67,21 @@ Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards
   return makeSurfel(scene, effects, candidate, refineHit(scene, ray, candidate), ray);
 }
 
-void expectVectorNear(const Vec3d& a, const Vec3d& b, double tolerance) {
-  EXPECT_LE(length(a - b), tolerance)
-      << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
-}
-
 TEST(Surfel, NormalsFaceTheViewer) {
   SceneBuilder builder;
   builder.add(test::floorAt(1, 2, 0));
   const Scene scene = builder.build();
   const Surfel above = surfelAlong(scene, {0.5, 3, 0.25}, {0, -1, 0});
   EXPECT_TRUE(above.entering);
-  expectVectorNear(above.position, {0.5, 1, 0.25}, 1e-15);
-  expectVectorNear(above.geometricNormal, {0, 1, 0}, 0);
-  expectVectorNear(above.shadingNormal, {0, 1, 0}, 0);
-  expectVectorNear(above.view, {0, 1, 0}, 0);
+  expectNear(above.position, {0.5, 1, 0.25}, 1e-15);
+  expectNear(above.geometricNormal, {0, 1, 0}, 0);
+  expectNear(above.shadingNormal, {0, 1, 0}, 0);
+  expectNear(above.view, {0, 1, 0}, 0);
 
   const Surfel below = surfelAlong(scene, {0.5, -3, 0.25}, {0, 1, 0});
   EXPECT_FALSE(below.entering);
-  expectVectorNear(below.geometricNormal, {0, -1, 0}, 0);
-  expectVectorNear(below.shadingNormal, {0, -1, 0}, 0);
+  expectNear(below.geometricNormal, {0, -1, 0}, 0);
+  expectNear(below.shadingNormal, {0, -1, 0}, 0);
 }
 
 TEST(Surfel, OffsetBoundsTheRounding) {
@@ -128,15 +126,14 @@ TEST(Surfel, InterpolatesNormals) {
   // The normal of the first edge leans left, that of the opposite one right.
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
   const Scene scene = builder.build();
-  expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
+  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
 
   // At three quarters of the way, the tangent is half of the border's.
-  expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
-                   normalized(Vec3d{0.5, 1, 0}), 1e-7);
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
+             normalized(Vec3d{0.5, 1, 0}), 1e-7);
 
   const EffectSet flat = EffectSet::all().without(Effect::smoothNormals);
-  expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0},
-                   0);
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0}, 0);
 }
 
 // Hard case H34: where interpolated normals cancel, the normal of the face is used.
@@ -145,7 +142,7 @@ TEST(Surfel, CancellingNormals) {
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
   const Scene scene = builder.build();
   const Surfel s = surfelAlong(scene, {0, 1, 1}, {0, -1, 0});
-  expectVectorNear(s.shadingNormal, {0, 1, 0}, 0);
+  expectNear(s.shadingNormal, {0, 1, 0}, 0);
 }
 
 // Facing is decided by the geometric normal alone (hard case H33).
@@ -157,7 +154,7 @@ TEST(Surfel, ShadingNormalMayLookAway) {
   const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
   EXPECT_TRUE(s.entering);
   EXPECT_LT(dot(s.view, s.shadingNormal), 0);
-  expectVectorNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
+  expectNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
 }
 
 // The texel centers at u = 1/4 and 3/4 have a green of 1 and 1/5, with 3/5 halfway between them.
@@ -179,83 +176,56 @@ TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   EXPECT_NEAR(alphaAt(0.75), 0.15 * 0.15, 1e-7);
 }
 
-class NormalMapTest : public ::testing::Test {
- protected:
-  // Returns a builder with the material of `mesh_`, a floor whose normal map is one texel in
-  // tangent space.
-  SceneBuilder floorWith(const Rgb& tangentSpace, bool mirroredU = false) {
+// A channel of 8 bits is off by half a step of 2/255, before the normal is normalized.
+constexpr double kCoding = 0.006;
+
+// Expects the shading normals of a floor whose normal map is one texel in tangent space, which
+// leans along u or v. On the floor u grows along +x and v along -z. `place` puts the floor into the
+// scene.
+void expectLeaning(const Vec3d& alongU, const Vec3d& alongV,
+                   const std::function<void(SceneBuilder&, Mesh)>& place, double side = 1,
+                   double tolerance = kCoding) {
+  for (const bool leansAlongU : {true, false}) {
     SceneBuilder builder;
     Material m = test::diffuseMaterial(1);
-    m.normalMap = builder.add(
-        makeTexture(TexelFormat::data, 1, 1,
-                    {encodeDataTexel(0.5f + 0.5f * tangentSpace.x, 0.5f + 0.5f * tangentSpace.y,
-                                     0.5f + 0.5f * tangentSpace.z, 1)}));
-    const auto material = builder.add(m);
-
-    mesh_ = test::floorAt(0, 1, material);
-    if (mirroredU) {
-      for (Vec2f& uv : mesh_.uvs) uv.x = -uv.x;
-    }
-    return builder;
+    const float lean = 0.5f + 0.5f * 0.6f, level = 0.5f;
+    m.normalMap = builder.add(makeTexture(
+        TexelFormat::data, 1, 1,
+        {encodeDataTexel(leansAlongU ? lean : level, leansAlongU ? level : lean, 0.9f, 1)}));
+    place(builder, test::floorAt(0, 1, builder.add(m)));
+    expectNear(surfelAlong(builder.build(), {0.1, side, 0.2}, {0, -side, 0}).shadingNormal,
+               leansAlongU ? alongU : alongV, tolerance);
   }
-
-  Mesh mesh_;
-  // A channel of 8 bits is off by half a step of 2/255, before the normal is normalized.
-  static constexpr double kCoding = 0.006;
-};
-
-// On the floor u grows along +x and v along -z.
-TEST_F(NormalMapTest, LeansAlongTextureAxes) {
-  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
-  alongU.add(mesh_);
-  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {0.6, 0.8, 0}, kCoding);
-
-  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
-  alongV.add(mesh_);
-  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {0, 0.8, -0.6}, kCoding);
 }
 
-TEST_F(NormalMapTest, MirroredTextureLeansTheOtherWay) {
-  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f}, true);
-  alongU.add(mesh_);
-  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {-0.6, 0.8, 0}, kCoding);
+void addToWorld(SceneBuilder& builder, Mesh mesh) { builder.add(std::move(mesh)); }
 
-  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f}, true);
-  alongV.add(mesh_);
-  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {0, 0.8, -0.6}, kCoding);
+TEST(NormalMap, LeansAlongTextureAxesAndTurnsOverWithTheSurface) {
+  expectLeaning({0.6, 0.8, 0}, {0, 0.8, -0.6}, addToWorld);
+  expectLeaning({-0.6, -0.8, 0}, {0, -0.8, 0.6}, addToWorld, -1);
 }
 
-TEST_F(NormalMapTest, TurnsOverWithTheSurface) {
-  SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
-  builder.add(mesh_);
-  expectVectorNear(surfelAlong(builder.build(), {0.1, -1, 0.2}, {0, 1, 0}).shadingNormal,
-                   {-0.6, -0.8, 0}, kCoding);
+TEST(NormalMap, MirroredTextureLeansTheOtherWay) {
+  expectLeaning({-0.6, 0.8, 0}, {0, 0.8, -0.6}, [](SceneBuilder& builder, Mesh mesh) {
+    for (Vec2f& uv : mesh.uvs) uv.x = -uv.x;
+    builder.add(std::move(mesh));
+  });
 }
 
-TEST_F(NormalMapTest, CollapsedTextureSpaceChangesNothing) {
-  SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
-  for (Vec2f& uv : mesh_.uvs) uv = {0.5f, uv.y};
-  builder.add(mesh_);
-  expectVectorNear(surfelAlong(builder.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 1, 0},
-                   0);
+TEST(NormalMap, CollapsedTextureSpaceChangesNothing) {
+  const auto collapsed = [](SceneBuilder& builder, Mesh mesh) {
+    for (Vec2f& uv : mesh.uvs) uv = {0.5f, uv.y};
+    builder.add(std::move(mesh));
+  };
+  expectLeaning({0, 1, 0}, {0, 1, 0}, collapsed, 1, 0);
 }
 
 // A mirrored instance looks like the mirrored surface: its tilt along v stays.
-TEST_F(NormalMapTest, MirroredInstance) {
-  const Affine far = Affine::translation({0, 0, 50});
-  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
-  alongU.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
-  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {-0.6, 0.8, 0}, kCoding);
-
-  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
-  alongV.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
-  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
-                   {0, 0.8, -0.6}, kCoding);
+TEST(NormalMap, MirroredInstance) {
+  expectLeaning({-0.6, 0.8, 0}, {0, 0.8, -0.6}, [](SceneBuilder& builder, const Mesh& mesh) {
+    builder.place({"floor", {mesh}},
+                  {Affine::scaling({-1, 1, 1}), Affine::translation({0, 0, 50})});
+  });
 }
 
 // Hard case H11: an instance looks like its mesh moved beforehand.
@@ -279,9 +249,9 @@ TEST(Surfel, InstancesMatchBakedGeometry) {
     const Surfel s = surfelAlong(a, eye, target - eye), t = surfelAlong(b, eye, target - eye);
 
     // The baked corners, 1000 from the origin, are rounded to float: to 3e-5, on edges 1 long.
-    expectVectorNear(s.position, t.position, 1e-4);
-    expectVectorNear(s.geometricNormal, t.geometricNormal, 1e-4);
-    expectVectorNear(s.shadingNormal, t.shadingNormal, 1e-6);
+    expectNear(s.position, t.position, 1e-4);
+    expectNear(s.geometricNormal, t.geometricNormal, 1e-4);
+    expectNear(s.shadingNormal, t.shadingNormal, 1e-6);
     EXPECT_EQ(s.entering, t.entering);
     EXPECT_EQ(s.entering, side > 0);
 
@@ -323,7 +293,7 @@ TEST(Surfel, NormalsAreInterpolatedAsModelled) {
       const Surfel seen = surfelAlong(scene, at + up, -up);
 
       // Baked corners are rounded to float, and the map stretches lengths by up to 16.
-      expectVectorNear(seen.shadingNormal, wanted, 1e-5);
+      expectNear(seen.shadingNormal, wanted, 1e-5);
     }
   }
 }
@@ -340,11 +310,11 @@ TEST(Surfel, TexturesMultiplyColors) {
 
   // u = 0.5 is halfway between black and yellow.
   const Surfel s = surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0});
-  expectVectorNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
-  expectVectorNear(s.specular, {0.125, 0.125, 0}, 1e-12);
+  expectNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
+  expectNear(s.specular, {0.125, 0.125, 0}, 1e-12);
 
   const EffectSet plain = EffectSet::all().without(Effect::textures);
-  expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
+  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
 }
 
 TEST(Surfel, RoughnessIsSquaredAndBounded) {

@@ -328,6 +328,28 @@ RgbD throughBlock(const Material& m, const Settings& settings, RayCounts& counts
   return test::radianceAlong(builder.build(), {0, 1, 0}, test::steep(30), settings, &counts);
 }
 
+// The surface of a solid is seen before a black sky, and what is in the solid has a radiance of 1:
+// the mean of the rays is the integral of the lobe, times the color of the glass.
+TEST(FrostedGlass, ShowsWhatItsSurfaceTransmits) {
+  for (const double degrees : {20.0, 60.0}) {
+    Material m = frostedGlass(0.6f, false);
+    m.transmission = {1, 0.5f, 0.25f};
+    m.ior = 1.5f;
+    test::SceneBuilder builder;
+    builder.add(test::floorAt(0, 1000, builder.add(m)));
+    builder.add(test::floorAt(-1, 1000, builder.add(test::emittingMaterial(1))));
+
+    const Vec3d down = test::steep(degrees);
+    const RgbD seen = test::radianceAlong(builder.build(), -down, down, sampledBy(1024));
+    const double alpha = double{m.roughness} * double{m.roughness};
+    const double wanted =
+        transmittedByQuadrature(alpha, 1, double{m.ior}, directionAt(-down.y, 0)).all;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(seen[i], wanted * double{m.transmission[i]}, kOfLattice) << degrees << ' ' << i;
+    }
+  }
+}
+
 // N rays each of reflection and refraction leave the first surface, and one each those that follow.
 TEST(FrostedGlass, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   RayCounts counts;

@@ -5,7 +5,6 @@
 
 #include "reference/lobe.h"
 #include "reference/small_scenes.h"
-#include "reference/write_emitted_and_reflective_ambient.h"
 
 namespace whit::reference {
 namespace {
@@ -50,19 +49,6 @@ TEST(GlossyLobe, AddsToTheDiffusePart) {
   EXPECT_NEAR(radianceFromLight(EffectSet::all(), s, light).radiance.x, 0.5 / kPi + lobe, 1e-12);
   const EffectSet matte = EffectSet::all().without(Effect::glossy);
   EXPECT_NEAR(radianceFromLight(matte, s, light).radiance.x, 0.5 / kPi, 1e-12);
-}
-
-// 2e-3: the largest error of the table for these views, and that of the midpoint rule.
-TEST(GlossyLobe, AlbedoIsTabulated) {
-  for (const double roughness : {0.3, 0.5, 0.7, 0.9, 1.0}) {
-    for (const double viewCosine : {0.2, 0.5, 0.8, 1.0}) {
-      for (const double f0 : {0.04, 0.5, 1.0}) {
-        const Surfel s = levelSurfel(roughness * roughness, f0, directionAt(viewCosine, 0));
-        EXPECT_NEAR(lobeAlbedo(s.specular, 1, viewCosine, roughness).x, albedoByQuadrature(s), 2e-3)
-            << roughness << ' ' << viewCosine << ' ' << f0;
-      }
-    }
-  }
 }
 
 }  // namespace

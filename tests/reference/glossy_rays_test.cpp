@@ -186,29 +186,6 @@ Settings sampled(int glossy) {
   return settings;
 }
 
-// A rough floor under a sky of one color is as bright as its albedo.
-TEST(GlossyScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
-  for (const float roughness : {0.3f, 0.7f, 1.0f}) {
-    test::SceneBuilder builder;
-    builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, roughness))));
-    builder.sky(2);
-    const Scene scene = builder.build();
-
-    for (const double degrees : {10.0, 60.0}) {
-      RayCounts counts;
-      const RgbD seen =
-          test::radianceAlong(scene, {0, 1, 0}, test::steep(degrees), sampled(64), &counts);
-
-      const double alpha = double{roughness} * double{roughness};
-      const double albedo = albedoByQuadrature(surfel(alpha, 0.5, std::cos(degrees * kPi / 180)));
-      // 0.03: what 64 points leave of weights that vary by 0.3, twice.
-      EXPECT_NEAR(seen.x, 2 * albedo, 0.03) << roughness << ' ' << degrees;
-      EXPECT_LE(counts[RayKind::reflection], 64u);
-      EXPECT_GT(counts[RayKind::reflection], 30u);  // the others end in the floor
-    }
-  }
-}
-
 TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNoRayIsReflected) {
   test::SceneBuilder builder;
   builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, 0.5f))));

@@ -58,10 +58,6 @@ RgbD floorColor(const Scene& scene, double x, double z, double level) {
   return sampleTexture(MipMaps(scene), {0}, (x + half) / kTexels, (half - z) / kTexels, level);
 }
 
-void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRounding) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
-}
-
 TEST(MipLevel, GrowsByOneAsTheSidesDouble) {
   EXPECT_EQ(mipLevel(0), 0);
   EXPECT_EQ(mipLevel(0.7), 0);

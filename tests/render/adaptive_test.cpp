@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/display.h"
-#include "inspect/metrics.h"
-#include "inspect/reference_frame.h"
-#include "render/shipped_scene.h"
+#include "render/pipeline_laws.h"
 #include "sampling/sample_pattern.h"
 
 namespace whit::test {
@@ -77,41 +75,19 @@ TEST_P(Adaptive, ContrastingPixelsGetEverySample) {
 }
 
 TEST_P(Adaptive, H60_anyTilesThreadsQueuesAndPacketsGiveTheSameBits) {
-  const Picture expected = render(scene_, withSamples(9, true));
-  std::vector<RenderOptions> variants(5, withSamples(9, true));
-  variants[0].threads = 3;
-  variants[1].tile = 5;
-  variants[2].queue = 16;
-  variants[2].tile = 64;
-  variants[3].batch = Batch::frame;
-  variants[4].packet = 4;
-
-  for (const RenderOptions& o : variants) {
-    EXPECT_EQ(firstDifference(render(scene_, o).image, expected.image), "") << &o - variants.data();
-  }
+  expectBitsWhateverTheQueues(scene_, withSamples(9, true));
 }
 
 // A crop reads one pixel beyond its border.
 TEST_P(Adaptive, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   RenderOptions o = withSamples(9, true);
   o.size = kSmallSize;
-  const Image whole = render(scene_, o).image;
-  o.crop = Crop{31, 20, 62, 45};
-  const Image part = render(scene_, o).image;
-  for (int y = o.crop->y0; y < o.crop->y1; ++y) {
-    for (int x = o.crop->x0; x < o.crop->x1; ++x) {
-      EXPECT_TRUE(sameBits(part.at(x, y), whole.at(x, y))) << x << "," << y;
-    }
-  }
+  expectBitsOfTheWhole(scene_, o, {31, 20, 62, 45});
 }
 
 TEST_P(Adaptive, AgreesWithTheReference) {
   const RenderOptions o = withSamples(9, true);
-  Renderer renderer(scene_, o);
-  Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
-  const FrameStats a = renderer.render(chooseCamera(scene_, o), packets);
-  const FrameStats b = renderReference(renderer, chooseCamera(scene_, o), reference);
-
+  const auto [packets, reference] = renderBoth(scene_, o);
   const ImageDifference d = compareImages(packets.image, reference.image);
   // The bound is twice that of pictures without decisions between neighbors, because pixels within
   // rounding of the threshold may be refined by one of the two alone.
@@ -119,8 +95,9 @@ TEST_P(Adaptive, AgreesWithTheReference) {
               d.pixelsGe2CodesPct);
   EXPECT_LE(d.pixelsGe2CodesPct, 0.2);
 
-  const auto primary = static_cast<double>(b.of(RayKind::primary).rays);
-  EXPECT_NEAR(static_cast<double>(a.of(RayKind::primary).rays), primary, 2e-3 * primary);
+  const auto primary = static_cast<double>(reference.stats.of(RayKind::primary).rays);
+  EXPECT_NEAR(static_cast<double>(packets.stats.of(RayKind::primary).rays), primary,
+              2e-3 * primary);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Adaptive, testing::Values("whitted", "glass", "matte"));
@@ -129,9 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Adaptive, testing::Values("whitted", "glass", 
 TEST(AdaptiveDisplay, EncodesEveryPixel) {
   const Scene scene = load("whitted");
   const RenderOptions o = withSamples(9, true);
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), film);
+  const Picture film = render(scene, o);
 
   EXPECT_EQ(film.display.rgba, toDisplay(film.image, 0, ToneCurve::none).rgba);
 }
@@ -151,14 +126,10 @@ TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
 
     RenderOptions adaptive = all;
     adaptive.adaptive = true;
-    EXPECT_TRUE(render(scene, adaptive).image.pixels == render(scene, all).image.pixels);
-
-    // The reference decides the same.
-    Renderer uniform(scene, all), chosen(scene, adaptive);
-    Film a = makeFilm(scene, all), b = makeFilm(scene, adaptive);
-    renderReference(uniform, chooseCamera(scene, all), a);
-    renderReference(chosen, chooseCamera(scene, adaptive), b);
-    EXPECT_TRUE(a.image.pixels == b.image.pixels);
+    for (const bool packets : {true, false}) {
+      EXPECT_TRUE(render(scene, adaptive, packets).image.pixels ==
+                  render(scene, all, packets).image.pixels);
+    }
   }
 }
 

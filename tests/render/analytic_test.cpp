@@ -102,8 +102,7 @@ TEST(Analytic, NothingShowsTheSky) {
   builder.sky(0.25f);
   SceneDescription description = builder.description;
   description.materials.clear();
-  Warnings warnings;
-  const Scene scene = Scene::finalize(std::move(description), warnings);
+  const Scene scene = repaired(std::move(description));
   ASSERT_TRUE(scene.materials.empty());
 
   const Image image = pictureOf(scene, lookingDown(), smallOptions());

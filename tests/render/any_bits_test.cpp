@@ -243,12 +243,11 @@ class KernelRunner : public StageObserver {
 
 // A shipped scene gets an image for a sky, and ambient light with occlusion.
 Scene withImageSky(const std::string& name) {
-  Warnings warnings;
-  SceneDescription description = loadScene(name, LoadOptions{}, warnings);
+  SceneDescription description = described(name);
   description.sky = studioSky();
   description.ambient.occlusion = 1;
   description.ambient.up = description.ambient.down = Rgb(0.5f);
-  return Scene::finalize(std::move(description), warnings);
+  return repaired(std::move(description));
 }
 
 TEST(AnyBits, LeadNoKernelAstray) {

@@ -22,23 +22,16 @@ float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
 
 // An emitting plate fills the view.
 Scene glowing(const Rgb& radiance, const Rgb& sky = {}, float side = 10) {
-  SceneDescription d;
-  d.materials.resize(1);
-  d.materials[0].diffuse = Rgb(0.0f);
-  d.materials[0].emission = radiance;
-
-  Mesh plate;
-  plate.positions = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
-  plate.triangles = {{0, 1, 2}, {0, 2, 3}};
-  plate.materials = {0};
-  d.objects.push_back({"plate", {plate}});
-  d.instances.push_back({0, Affine{}});
-
+  verify::SceneBuilder builder;
+  SceneDescription& d = builder.description;
+  Material material = verify::blackMaterial();
+  material.emission = radiance;
+  builder.add(verify::quad({-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0},
+                           builder.add(material)));
   d.cameras.emplace_back();
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = d.sky.horizon = d.sky.ground = sky;
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return builder.build();
 }
 
 TEST(AutoExposure, TakesTheMeanOfTheSurfacesToTheMiddle) {
@@ -116,8 +109,7 @@ Scene closedBox(float peak, bool isModel) {
   camera.eye = {0, 0, 20};
   camera.at = {0, 0, 0};
   d.cameras = {camera};
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return test::repaired(std::move(d));
 }
 
 // The share of the pixels that have a channel at 255.

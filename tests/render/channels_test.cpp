@@ -13,10 +13,10 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "has_text.h"
-#include "inspect/reference_frame.h"
 #include "pi.h"
+#include "reference/small_scenes.h"
+#include "render/pipeline_laws.h"
 #include "sampling/sample_pattern.h"
-#include "shipped_scene.h"
 
 namespace whit::test {
 namespace {
@@ -30,16 +30,8 @@ RenderOptions channelOptions(const std::string& channels = kAll) {
   return o;
 }
 
-Film filmOf(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  if (options.mode == Mode::reference) {
-    renderReference(renderer, camera, film);
-  } else {
-    renderer.render(camera, film);
-  }
-  return film;
+Picture filmOf(const Scene& scene, const RenderOptions& options) {
+  return render(scene, options, options.mode == Mode::packets);
 }
 
 // Returns the values of a channel at pixel (x, y) of the whole image.
@@ -81,12 +73,7 @@ SceneDescription squareScene() {
   d.materials.resize(2);
   d.materials[1].diffuse = {0.5f, 0.25f, 0.1f};
 
-  Mesh mesh;
-  mesh.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  mesh.materials = {1};
-  d.objects.push_back({"square", {mesh}});
+  d.objects.push_back({"square", {quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, 1)}});
   d.instances.push_back({0, Affine{}});
 
   d.cameras.resize(1);  // at z = 5, looking along -z
@@ -94,17 +81,11 @@ SceneDescription squareScene() {
   return d;
 }
 
-Scene finalized(SceneDescription d) {
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
-}
-
 SceneDescription loadText(const std::string& text) {
   const std::filesystem::path path = std::filesystem::temp_directory_path() /
                                      ("whit-channels-" + std::to_string(getpid()) + ".json");
   std::ofstream(path) << text;
-  Warnings warnings;
-  SceneDescription d = loadScene(path.string(), {}, warnings);
+  SceneDescription d = described(path.string());
   std::filesystem::remove(path);
   return d;
 }
@@ -122,7 +103,7 @@ class Channels : public testing::TestWithParam<Mode> {
 // The square is 4 / (10 tan 30 degrees) of the height wide. The bound of 1 % allows for the 16
 // samples of each pixel at its edges.
 TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
-  const Scene scene = finalized(squareScene());
+  const Scene scene = repaired(squareScene());
   RenderOptions o = options("alpha");
   o.spp = 16;
   o.adaptive = true;  // takes all samples
@@ -158,7 +139,7 @@ TEST_P(Channels, AlphaOfFrostedGlassIsWhatDoesNotGoStraightOn) {
 
     RenderOptions o = options("alpha");
     o.glossy = 8;
-    const Film film = filmOf(finalized(d), o);
+    const Film film = filmOf(repaired(d), o);
     const int x = film.image.width / 2, y = film.image.height / 2;
     EXPECT_NEAR(floatsAt(film, Channel::alpha, x, y)[0], alpha, 1e-6f) << roughness << coverage;
   }
@@ -169,11 +150,11 @@ TEST_P(Channels, AlphaOfFrostedGlassIsWhatDoesNotGoStraightOn) {
 TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {
   SceneDescription d = squareScene();
   d.ambient.up = d.ambient.down = Rgb(1.0f);
-  const Scene alone = finalized(d);
+  const Scene alone = repaired(d);
 
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = Rgb(3.0f);
-  const Scene scene = finalized(d);
+  const Scene scene = repaired(d);
   RenderOptions o = options("");
   o.spp = 4;
   const Film black = filmOf(alone, o);
@@ -242,7 +223,7 @@ Scene sheetBeforeSky(Material sheet, const Material* behind = nullptr) {
     d.objects.push_back({"behind", {mesh}});
     d.instances.push_back({1, Affine{}});
   }
-  return finalized(std::move(d));
+  return repaired(std::move(d));
 }
 
 // A sheet sends its own light, and 1 - alpha of the background passes it (Porter and Duff 1984).
@@ -345,7 +326,7 @@ TEST_P(Channels, AlbedoIsTheMaterialsOwn) {
     for (const char* const rays : {"0", "4"}) {
       RenderOptions o = options("albedo");
       setOption(o, "glossy", rays);
-      const Film film = filmOf(finalized(d), o);
+      const Film film = filmOf(repaired(d), o);
       expectNear(floatsAt(film, Channel::albedo, film.image.width / 2, film.image.height / 2),
                  {0.5, 0.25, 0.1f}, 0);
     }
@@ -361,16 +342,16 @@ TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
   d.sky.zenith = Rgb(1.0f);
   d.ambient.up = d.ambient.down = Rgb(1.0f);
 
-  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+  EXPECT_EQ(middleOf(repaired(d), options("alpha")).image, Rgb(1.0f));
 
   // A gray coat leaves the hue as it is.
   d.materials[1].mirror = d.materials[1].mirrorGrazing = Rgb(0.75f);
-  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, (Rgb{1, 0.875f, 0.75f}));
+  EXPECT_EQ(middleOf(repaired(d), options("alpha")).image, (Rgb{1, 0.875f, 0.75f}));
 
   // A red coat takes nothing of green and blue.
   d.materials[1].diffuse = Rgb(1.0f);
   d.materials[1].mirror = d.materials[1].mirrorGrazing = {1, 0, 0};
-  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+  EXPECT_EQ(middleOf(repaired(d), options("alpha")).image, Rgb(1.0f));
 }
 
 // glTF 2.0 makes this diffuse color and reflectance of a base color and a metallic share.
@@ -378,7 +359,7 @@ TEST_P(Channels, FinishIsTheMaterialsOwn) {
   const auto finishOf = [&](const Material& material) {
     SceneDescription d = squareScene();
     d.materials[1] = material;
-    const Film film = filmOf(finalized(d), options("roughness,metallic"));
+    const Film film = filmOf(repaired(d), options("roughness,metallic"));
     const int x = film.image.width / 2, y = film.image.height / 2;
     return std::array{floatsAt(film, Channel::roughness, x, y)[0],
                       floatsAt(film, Channel::metallic, x, y)[0]};
@@ -425,7 +406,7 @@ TEST_P(Channels, MotionIsThatOfCameraAndVertices) {
   bending->targets[0].positions.assign(4, {1, 0, 0});
   bending->movingWeights = Track{.components = 1, .times = {0, 1}, .values = {0, 1}};
   mesh.deformation = bending;
-  Scene scene = finalized(d);
+  Scene scene = repaired(d);
 
   const RenderOptions o = options("motion,position,object");
   Renderer renderer(scene, o);
@@ -458,14 +439,14 @@ TEST_P(Channels, MotionIsThatOfCameraAndVertices) {
 }
 
 TEST_P(Channels, MotionAsksForALinearCamera) {
-  const Scene scene = finalized(squareScene());
+  const Scene scene = repaired(squareScene());
   Camera panorama = scene.cameras[0];
   panorama.projection = Projection::panorama;
   EXPECT_THROW(rememberView(scene, panorama), Error);
 }
 
 TEST_P(Channels, OfASquareAreItsOwn) {
-  const Scene scene = finalized(squareScene());
+  const Scene scene = repaired(squareScene());
   const Film film = filmOf(scene, options());
 
   int met = 0;
@@ -497,7 +478,7 @@ TEST_P(Channels, OfASquareAreItsOwn) {
 }
 
 TEST_P(Channels, WhereNothingIsMetSayItIsNot) {
-  const Scene scene = finalized(squareScene());
+  const Scene scene = repaired(squareScene());
   const Film film = filmOf(scene, options());
 
   expectNear(floatsAt(film, Channel::position, 0, 0), {0, 0, 0}, 0);
@@ -515,7 +496,7 @@ TEST_P(Channels, WhereNothingIsMetSayItIsNot) {
 TEST_P(Channels, OfParallelRaysHaveOneDepth) {
   SceneDescription d = squareScene();
   d.cameras[0].orthographicHeight = 3;
-  const Film film = filmOf(finalized(std::move(d)), options("depth"));
+  const Film film = filmOf(repaired(std::move(d)), options("depth"));
   // Embree divides to find the depth, which rounds.
   expectNear(floatsAt(film, Channel::depth, 53, 33), {5, 5}, kNear);
 }
@@ -524,11 +505,9 @@ TEST_P(Channels, OfParallelRaysHaveOneDepth) {
 // quadratic.
 TEST_P(Channels, OfASphereAreItsOwn) {
   SceneDescription d = squareScene();
-  d.objects[0].meshes[0] = {};
-  d.objects[0].meshes[0].spheres = {Affine()};
-  d.objects[0].meshes[0].materials = {1};
+  d.objects[0].meshes[0] = exactSphere(1);
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = repaired(std::move(d));
   const Film film = filmOf(scene, options());
   int met = 0;
   for (int y = 0; y < film.image.height; ++y) {
@@ -570,7 +549,7 @@ TEST_P(Channels, NumbersTellThingsApart) {
               {"use": "pair", "transform": {"translate": [2, 0, 0.5]}},
               {"shape": "quad", "width": 0.5, "depth": 0.5, "material": "c",
                "transform": {"rotate": [1, 0, 0, 90], "translate": [0, 1, 0]}}]})";
-  const Scene scene = finalized(loadText(text));
+  const Scene scene = repaired(loadText(text));
   const Film film = filmOf(scene, options());
 
   // Finds the column of the middle row that shows a point of a box's front.
@@ -619,19 +598,11 @@ TEST(ChannelLaws, BitsDependOnNothingAround) {
     o.spp = 3;
     const ChannelLayers whole = filmOf(scene, o).channels;
 
-    const auto expectAs = [&](const std::string& what, const auto& change) {
+    for (const Division& division : usualDivisions()) {
       RenderOptions other = o;
-      change(other);
-      expectSame(whole, filmOf(scene, other).channels, name + ", " + what);
-    };
-
-    expectAs("threads", [](RenderOptions& x) { x.threads = 3; });
-    expectAs("tile", [](RenderOptions& x) { x.tile = 7; });
-    expectAs("queue", [](RenderOptions& x) { x.queue = 48; });
-    expectAs("batch", [](RenderOptions& x) { x.batch = Batch::frame; });
-    expectAs("packet", [](RenderOptions& x) { x.packet = 1; });
-    expectAs("packet", [](RenderOptions& x) { x.packet = 4; });
-    expectAs("effects", [](RenderOptions& x) { x.effects = EffectChoice::all; });
+      division.set(other);
+      expectSame(whole, filmOf(scene, other).channels, name + ", " + division.name);
+    }
   }
 }
 
@@ -682,7 +653,7 @@ TEST(ChannelLaws, ThePictureIsTheSameWithThem) {
 // Channels are never averaged: where the square ends, each pixel has the depth of the square or of
 // nothing, at the sample that is nearest to its center.
 TEST(ChannelLaws, AreThoseOfOneSample) {
-  const Scene scene = finalized(squareScene());
+  const Scene scene = repaired(squareScene());
   for (const int spp : {1, 2, 3, 4, 5, 16}) {
     RenderOptions o = channelOptions("depth,position");
     o.spp = spp;
@@ -765,17 +736,10 @@ TEST(ChannelLaws, AgreeWithTheReference) {
 
 // The sum of the channel over a picture is the number of rays that the frame has traced.
 void expectAllRaysKept(const std::string& name, const RenderOptions& o) {
-  const Scene scene = load(name);
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  const Camera camera = chooseCamera(scene, o);
-  const FrameStats stats = o.mode == Mode::reference ? renderReference(renderer, camera, film)
-                                                     : renderer.render(camera, film);
-
-  std::uint64_t kept = 0, traced = 0;
+  const Picture film = filmOf(load(name), o);
+  std::uint64_t kept = 0;
   for (const std::uint32_t n : film.channels.numbers(Channel::rays)) kept += n;
-  for (const RayTally& tally : stats.meter.tally) traced += tally.rays;
-  EXPECT_EQ(kept, traced) << name;
+  EXPECT_EQ(kept, film.stats.allRays()) << name;
 }
 
 TEST(ChannelLaws, RaysAreAllThatWereTraced) {
@@ -832,14 +796,17 @@ TEST(ChannelLaws, ARendererTakesOthersOver) {
   expectSame(wanted, film.channels, "set later");
 }
 
+Scene movingOrrery() {
+  LoadOptions moving;
+  moving.instant.plays = true;
+  return repaired(described("orrery", moving));
+}
+
 // Objects that move are instanced and objects that stand still are baked: numbers and names are
 // the same in both.
 TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
-  Warnings warnings;
-  LoadOptions moving;
-  moving.instant.plays = true;
-  const Scene still = Scene::finalize(loadScene("orrery", {}, warnings), warnings);
-  Scene moved = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
+  const Scene still = load("orrery");
+  Scene moved = movingOrrery();
   moveScene(moved, 0);
   EXPECT_EQ(still.items.names, moved.items.names);
 
@@ -857,10 +824,7 @@ TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
 }
 
 TEST(ChannelLaws, MovedThingsKeepTheirNumbers) {
-  Warnings warnings;
-  LoadOptions moving;
-  moving.instant.plays = true;
-  Scene scene = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
+  Scene scene = movingOrrery();
   const RenderOptions o = channelOptions("object,position");
   moveScene(scene, 3);
   const Film fresh = filmOf(scene, o);

@@ -6,7 +6,6 @@
 
 #include "inspect/reference_frame.h"
 #include "pi.h"
-#include "render/plan.h"
 #include "render/row_of_tiles.h"
 #include "rounding.h"
 
@@ -148,17 +147,13 @@ TEST(Coverage, OfASheetOnGlassLeavesItsReflection) {
                      builder.add(inPart(blackMaterial(), 0.25f))));
 
     builder.sky(2);
-    const float y = within ? -0.5f : 0.5f;
-    builder.description.cameras = {{.eye = {0.1f, y, 1.2f}, .at = {0.05f, 0, 0}, .fov = 20}};
+    const float height = within ? -0.5f : 0.5f;
+    builder.description.cameras = {{.eye = {0.1f, height, 1.2f}, .at = {0.05f, 0, 0}, .fov = 20}};
     const Scene scene = builder.build();
     const RenderOptions o = smallOptions();
-    const Image image = render(scene, o).image;
-    const Rgb& pixel = image.at(image.width / 2, image.height / 2);
-
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o);
-    renderReference(renderer, chooseCamera(scene, o), film);
-    const Rgb wanted = film.image.at(image.width / 2, image.height / 2);
+    const auto [packets, reference] = renderBoth(scene, o);
+    const int x = packets.image.width / 2, y = packets.image.height / 2;
+    const Rgb pixel = packets.image.at(x, y), wanted = reference.image.at(x, y);
 
     EXPECT_GT(wanted.x, 0.1f) << within;
     EXPECT_NEAR(pixel.x, wanted.x, 1e-5f) << within;
@@ -266,13 +261,14 @@ Scene tilesInPart() {
     }
 
     const std::uint32_t material = builder.add(m);
-    Mesh tile = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
-    const Mesh upper = tile;
-    tile.uvs.insert(tile.uvs.end(), upper.uvs.begin(), upper.uvs.end());
-    for (const Vec3f& p : upper.positions) tile.positions.push_back({p.x, p.y - 0.5f, p.z});
-    for (const auto& [p, q, r] : upper.triangles) tile.triangles.push_back({p + 4, q + 4, r + 4});
-    tile.materials.assign(tile.triangles.size(), material);
-    return tile;
+    Mesh both = tile(material);
+    both.secondUvs.clear();
+    const Mesh upper = both;
+    both.uvs.insert(both.uvs.end(), upper.uvs.begin(), upper.uvs.end());
+    for (const Vec3f& p : upper.positions) both.positions.push_back({p.x, p.y - 0.5f, p.z});
+    for (const auto& [p, q, r] : upper.triangles) both.triangles.push_back({p + 4, q + 4, r + 4});
+    both.materials.assign(both.triangles.size(), material);
+    return both;
   });
 }
 
@@ -282,28 +278,11 @@ RenderOptions sampledOptions() {
   return o;
 }
 
-TEST(Coverage, AgreesWithTheReferenceOnEveryTarget) {
-  const Scene scene = tilesInPart();
-  for (const TextureFilter filter :
-       {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
-    RenderOptions o = sampledOptions();
-    o.shading.textureFilter = filter;
-    expectTheReferenceOnEveryTarget(scene, o);
-  }
-}
-
-TEST(Coverage, KeepsItsBitsWhateverTheQueues) {
-  expectBitsWhateverTheQueues(tilesInPart(), sampledOptions());
-}
+TEST(Coverage, KeepsTheLawsOfMaps) { expectTheLawsOfMaps(tilesInPart(), sampledOptions()); }
 
 TEST(Coverage, HasAStepWhereTheSceneHasSome) {
-  Scene scene = tilesInPart();
-  EXPECT_NE(makePlan(scene, sampledOptions()).find("lookUpCoverage"), nullptr);
-  for (const Effect effect : {Effect::coverage, Effect::transmission}) {
-    RenderOptions o = sampledOptions();
-    o.disable = EffectSet().with(effect);
-    EXPECT_EQ(makePlan(scene, o).find("lookUpCoverage"), nullptr);
-  }
+  expectStep("lookUpCoverage", tilesInPart(), sampledOptions(),
+             {Effect::coverage, Effect::transmission});
 }
 
 }  // namespace

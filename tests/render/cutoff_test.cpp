@@ -40,17 +40,11 @@ TEST(Cutoff, ClosedRoomsKeepTheirLight) {
     o.indirect = 4;
 
     const double tail = std::pow(double{albedo}, kDepth + 1);
-    Renderer renderer(scene, o);
     for (const bool packets : {false, true}) {
-      Film film = makeFilm(scene, o);
-      if (packets) {
-        renderer.render(chooseCamera(scene, o), film);
-      } else {
-        renderReference(renderer, chooseCamera(scene, o), film);
-      }
+      const Image image = render(scene, o, packets).image;
       // Paths end where they count for less than the cutoff, if that is before the depth does.
       const double bound = std::max(tail, double{o.cutoff} / (1 - double{albedo})) + 1e-4;
-      for (const Rgb& pixel : film.image.pixels) {
+      for (const Rgb& pixel : image.pixels) {
         EXPECT_LE(pixel.x, 1 + 1e-4) << albedo;
         EXPECT_GE(pixel.x, 1 - bound) << albedo;
       }
@@ -74,17 +68,17 @@ TEST(Cutoff, WhiteRoomsKeepTheirLightWithOneRayABounce) {
       o.glossy = o.indirect = kSamples;
 
       for (const bool packets : {false, true}) {
-        const auto [image, stats] = render(scene, o, packets);
+        const Picture picture = render(scene, o, packets);
         // Rounding adds up over the bounces of a path, to less than an ulp of 1 at each.
         constexpr double kRounding = kDepth * 0x1p-23;
         // A sample of weight below the cutoff at the first surface takes its light along.
         const double bound = kRounding + 2 * kSamples * double{o.cutoff};
-        for (const Rgb& pixel : image.pixels) {
+        for (const Rgb& pixel : picture.image.pixels) {
           EXPECT_NEAR(pixel.x, 1, bound) << specular << ' ' << roughness << packets;
         }
         // The samples of both lobes of the first surface go on as one ray a bounce.
-        const std::size_t most = image.pixels.size() * (1 + 2 * kSamples * kDepth);
-        EXPECT_LE(stats.allRays(), most) << specular << ' ' << roughness << packets;
+        const std::size_t most = picture.image.pixels.size() * (1 + 2 * kSamples * kDepth);
+        EXPECT_LE(picture.stats.allRays(), most) << specular << ' ' << roughness << packets;
       }
     }
   }
@@ -106,10 +100,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
 
   RenderOptions o = smallOptions();
   o.size = ImageSize{16, 12};
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderReference(renderer, chooseCamera(scene, o), reference);
+  const auto [packets, reference] = renderBoth(scene, o);
 
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
@@ -138,18 +129,15 @@ TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   o.depth = 16;
   o.cutoff = 1e-2f;
 
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  const FrameStats packets = renderer.render(chooseCamera(scene, o), film);
-  const FrameStats reference = renderReference(renderer, chooseCamera(scene, o), film);
+  const auto [packets, reference] = renderBoth(scene, o);
   // As many paths as cutoffs go into 1, each with a ray a depth.
 
   const double bound = 16 * o.depth / static_cast<double>(o.cutoff);
   std::printf("%llu rays of 16 pixels (at most %.0f)\n",
-              static_cast<unsigned long long>(packets.allRays()), bound);
-  EXPECT_GT(packets.allRays(), 16u * 16u) << "they do branch";
-  EXPECT_LE(static_cast<double>(packets.allRays()), bound);
-  EXPECT_EQ(packets.allRays(), reference.allRays());
+              static_cast<unsigned long long>(packets.stats.allRays()), bound);
+  EXPECT_GT(packets.stats.allRays(), 16u * 16u) << "they do branch";
+  EXPECT_LE(static_cast<double>(packets.stats.allRays()), bound);
+  EXPECT_EQ(packets.stats.allRays(), reference.stats.allRays());
 }
 
 }  // namespace

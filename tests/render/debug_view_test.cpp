@@ -23,17 +23,13 @@ Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
   d.lights.resize(1);
   d.lights[0].position = {0, 0, 4};
 
-  Mesh mesh;
-  mesh.positions = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  mesh.materials = {0};
-  d.objects.push_back({"wall", {mesh}});
+  d.objects.push_back(
+      {"wall", {verify::quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}, 0)}});
   d.instances.push_back({0, Affine{}});
   d.cameras.resize(1);  // at z = 5, looking along -z
 
   if (change) change(d);
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return repaired(std::move(d));
 }
 
 struct Viewed {

@@ -77,14 +77,7 @@ RenderOptions optionsOf(int spp) {
 }
 
 Image pictureOf(const Scene& scene, const RenderOptions& o, Mode mode) {
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  if (mode == Mode::reference) {
-    renderReference(renderer, chooseCamera(scene, o), film);
-  } else {
-    renderer.render(chooseCamera(scene, o), film);
-  }
-  return film.image;
+  return render(scene, o, mode == Mode::packets).image;
 }
 
 // Sums up the light of a picture: all of it, in cells of the middle of the disk, and how far it
@@ -270,10 +263,7 @@ TEST(DepthOfField, ChannelsAreThoseOfTheRayThroughTheLens) {
   o.channels = parseChannels("depth,position,rays");
   const Scene scene = sceneOf({4, 8});
 
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderReference(renderer, chooseCamera(scene, o), reference);
+  const auto [packets, reference] = renderBoth(scene, o);
   int apart = 0, aside = 0;
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     const float z = packets.channels.floats(Channel::depth)[2 * i];

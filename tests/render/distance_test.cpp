@@ -101,13 +101,7 @@ double meanSeen(SceneDescription description, double texelsPerPixel, bool byRefe
   RenderOptions o = smallOptions();
   o.size = ImageSize{kPixels, kPixels};
 
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  if (byReference) {
-    renderReference(renderer, chooseCamera(scene, o), film);
-  } else {
-    renderer.render(chooseCamera(scene, o), film);
-  }
+  const Picture film = render(scene, o, !byReference);
 
   double sum = 0;
   for (const Rgb& pixel : film.image.pixels) sum += double{pixel.y};

@@ -317,11 +317,7 @@ TEST(DoubleShadows, H92_differOnlyWithinRoundingOfAnEdge) {
     for (unsigned seed = 0; seed < kSeeds; ++seed) {
       SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
       const Scene scene = randomScene(kind, seed);
-      Renderer renderer(scene, options);
-      const Camera camera = chooseCamera(scene, options);
-      Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
-      renderer.render(camera, packets);
-      renderReference(renderer, camera, reference);
+      const auto [packets, reference] = renderBoth(scene, options);
 
       const Comparison comparison(scene, options);
       for (const Film* film : {&packets, &reference}) {

@@ -17,12 +17,10 @@ using Edit = std::function<void(std::vector<Material>&, std::vector<Light>&)>;
 void expectAsIfRead(const std::string& name, const Edit& edit) {
   RenderOptions options = smallOptions();
   options.size = ImageSize{53, 37};
-  Warnings warnings;
-
-  SceneDescription description = loadScene(name, LoadOptions{}, warnings);
-  Scene edited = Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+  SceneDescription description = described(name);
+  Scene edited = load(name);
   edit(description.materials, description.lights);
-  const Scene read = Scene::finalize(std::move(description), warnings);
+  const Scene read = repaired(std::move(description));
 
   Renderer renderer(edited, options);
   Film film = makeFilm(edited, options);
@@ -108,12 +106,11 @@ TEST(EditShading, MapsAndShadowsStay) {
 // sky again.
 TEST(EditShading, SkiesAreExchanged) {
   const RenderOptions options = smallOptions();
-  Warnings warnings;
   for (const Sky& other : {studioSky(), Sky()}) {
-    SceneDescription description = loadScene("whitted", LoadOptions{}, warnings);
+    SceneDescription description = described("whitted");
     description.sky = other;
     description.ambient = ambientFromSky(other, 0.5);
-    const Scene read = Scene::finalize(std::move(description), warnings);
+    const Scene read = repaired(std::move(description));
 
     Scene edited = load("whitted");
     Renderer renderer(edited, options);

@@ -8,12 +8,11 @@ namespace whit::test {
 namespace {
 
 Scene loadWithout(EffectSet effects) {
-  Warnings warnings;
-  static const SceneDescription kAll = loadScene("effects", LoadOptions{}, warnings);
+  static const SceneDescription kAll = described("effects");
   SceneDescription description = kAll;
   description.fog = {Rgb(0.05f), Rgb(0.5f)};
   leaveOut(description, effects);
-  return Scene::finalize(std::move(description), warnings);
+  return repaired(std::move(description));
 }
 
 // Adds the effects that cannot exist without `effect`.

@@ -1,9 +1,7 @@
 // A frame runs only the effects that its scene needs.
 #include <gtest/gtest.h>
 
-#include "inspect/metrics.h"
-#include "inspect/reference_frame.h"
-#include "render/shipped_scene.h"
+#include "render/pipeline_laws.h"
 
 namespace whit::test {
 namespace {
@@ -43,13 +41,7 @@ TEST(Instances, LeftOutAreNotThereAsInTheReference) {
   const Scene scene = load("landscape?triangles=20000");
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::instances);
-
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderReference(renderer, chooseCamera(scene, o), reference);
-
-  EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0.1);
+  EXPECT_LE(differenceFromReference(scene, o).pixelsGe2CodesPct, 0.1);
 }
 
 class EffectLaw : public testing::TestWithParam<int> {};
@@ -93,17 +85,6 @@ TEST(EffectLaw, MatteTracesNothingButPrimaryAndShadowRays) {
   EXPECT_EQ(p.stats.of(RayKind::reflection).rays, 0u);
   EXPECT_EQ(p.stats.of(RayKind::refraction).rays, 0u);
   EXPECT_EQ(p.stats.callsOf(Stage::addImpulses), 0u);
-}
-
-TEST(EffectLaw, WithoutLightsNoLightStageRuns) {
-  const Scene scene = load("matte");
-  RenderOptions o = smallOptions();
-  o.disable = EffectSet().with(Effect::lights);
-  const Picture p = render(scene, o);
-  for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
-    EXPECT_EQ(p.stats.callsOf(s), 0u);
-  }
-  EXPECT_EQ(p.stats.of(RayKind::shadow).rays, 0u);
 }
 
 TEST(EffectLaw, WithoutShadowsEveryLightShines) {

@@ -41,8 +41,7 @@ Scene discScene() {
 
   d.cameras.resize(1);
   d.cameras[0].fov = 60;
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return repaired(std::move(d));
 }
 
 class ErrorChannel : public testing::TestWithParam<Mode> {};
@@ -114,8 +113,7 @@ Scene hallScene() {
   d.cameras.resize(1);
   d.cameras[0].eye = {0, 0, 2};
   d.cameras[0].fov = 40;
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return repaired(std::move(d));
 }
 
 // After k mirrors of the largest reflectance 0.5 the share is 0.5^k.

@@ -7,10 +7,9 @@ namespace whit::test {
 namespace {
 
 Scene foggy(const std::string& name, const Fog& fog) {
-  Warnings warnings;
-  SceneDescription description = loadScene(name, LoadOptions{}, warnings);
+  SceneDescription description = described(name);
   description.fog = fog;
-  return Scene::finalize(std::move(description), warnings);
+  return repaired(std::move(description));
 }
 
 class FogOfTheAir : public testing::TestWithParam<std::string> {

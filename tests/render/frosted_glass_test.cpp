@@ -2,9 +2,7 @@
 // none.
 #include <gtest/gtest.h>
 
-#include "reference/small_scenes.h"
-#include "render/pipeline_laws.h"
-#include "render/plan.h"
+#include "render/row_of_tiles.h"
 
 namespace whit::test {
 namespace {
@@ -107,16 +105,11 @@ TEST(FrostedGlass, HasBoundedTrees) {
 }
 
 TEST(FrostedGlass, HasAStepWhereTheSceneHasIt) {
-  Scene scene = frostedThings();
-  EXPECT_NE(makePlan(scene, withSampledLobes()).find("addFrostedRefractions"), nullptr);
-  EXPECT_EQ(makePlan(scene, smallOptions()).find("addFrostedRefractions"), nullptr);
-
-  RenderOptions o = withSampledLobes();
-  o.disable = EffectSet().with(Effect::transmission);
-  EXPECT_EQ(makePlan(scene, o).find("addFrostedRefractions"), nullptr);
-
-  for (Material& m : scene.materials) m.frosted = false;
-  EXPECT_EQ(makePlan(scene, withSampledLobes()).find("addFrostedRefractions"), nullptr);
+  Scene clear = frostedThings();
+  for (Material& m : clear.materials) m.frosted = false;
+  expectStep("addFrostedRefractions", frostedThings(), withSampledLobes(), {Effect::transmission},
+             &clear);
+  EXPECT_EQ(makePlan(frostedThings(), smallOptions()).find("addFrostedRefractions"), nullptr);
 }
 
 // Up to the roughness of sharp mirrors the picture is that of clear glass, and it goes on from

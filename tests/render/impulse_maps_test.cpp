@@ -22,7 +22,7 @@ Scene halves(const std::function<void(Material&, std::int32_t)>& set, bool tinte
 
   Material m = blackMaterial();
   set(m, map);
-  Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+  Mesh mesh = tile(builder.add(m));
   if (tinted) mesh.colors = {{1, 1, 1}, {0.5f, 1, 0}, {0.5f, 1, 0}, {1, 1, 1}};
   builder.add(mesh);
   builder.sky(2);
@@ -136,24 +136,13 @@ Scene mappedTiles() {
       m.thin = i > 3;
     }
     if (i % 3 != 0) m.transmissionMap = map;
-    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+    Mesh mesh = tile(builder.add(m));
     if (i != 5) mesh.colors = {{1, 1, 1}, {0.5f, 1, 0}, {0, 0.3f, 1}, {1, 0, 1}};
     return mesh;
   });
 }
 
-TEST(ImpulseMaps, AgreeWithTheReferenceOnEveryTarget) {
-  const Scene scene = mappedTiles();
-  for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
-    RenderOptions o = smallOptions();
-    o.shading.textureFilter = filter;
-    expectTheReferenceOnEveryTarget(scene, o);
-  }
-}
-
-TEST(ImpulseMaps, KeepTheirBitsWhateverTheQueues) {
-  expectBitsWhateverTheQueues(mappedTiles(), smallOptions());
-}
+TEST(ImpulseMaps, KeepTheLawsOfMaps) { expectTheLawsOfMaps(mappedTiles()); }
 
 TEST(ImpulseMaps, HaveStepsWhereTheSceneHasThem) {
   Scene scene = mappedTiles();

@@ -7,30 +7,18 @@
 #include "inspect/reference_frame.h"
 #include "pi.h"
 #include "reference/generate_rays.h"
+#include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
-#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
 
-using namespace verify;
-
 Light spot(float inner, float outer) {
   Light light = lightAt({0, 2, 0}, 10);
-  light.name = "spot";
   light.kind = Light::Kind::spot;
   light.innerConeAngle = inner;
   light.outerConeAngle = outer;
-  return light;
-}
-
-Light sun(const Vec3f& direction) {
-  Light light;
-  light.name = "sun";
-  light.kind = Light::Kind::directional;
-  light.direction = direction;
-  light.intensity = Rgb(3.0f);
   return light;
 }
 
@@ -83,13 +71,13 @@ TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
 }
 
 TEST(LightKinds, ADirectionalLightIsEvenAndFacesTheSurface) {
-  const Picture picture = render(floorUnder({sun({3, -4, 0})}), smallOptions());
+  const Picture picture = render(floorUnder({sun({3, -4, 0}, 3)}), smallOptions());
   // The light (3, -4, 0) reaches the floor at a cosine of 0.8.
   for (const Rgb& pixel : picture.image.pixels) {
     ASSERT_NEAR(static_cast<double>(pixel.x), 0.5 / kPi * 3 * 0.8, 20 * 0x1p-24);
   }
 
-  const Picture below = render(floorUnder({sun({0, 1, 0})}), smallOptions());
+  const Picture below = render(floorUnder({sun({0, 1, 0}, 3)}), smallOptions());
   EXPECT_EQ(below.stats.of(RayKind::shadow).rays, 0u) << "the floor faces away";
 }
 
@@ -97,23 +85,16 @@ TEST(LightKinds, ADirectionalLightIsEvenAndFacesTheSurface) {
 TEST(LightKinds, AgreeWithTheReference) {
   const Scene scene = load("effects");
   expectStagesAgreeOnEveryTarget(scene, smallOptions());
-  const RenderOptions o = smallOptions();
-  const ImageDifference d = differenceFromReference(scene, o);
-  EXPECT_LE(d.pixelsGe2CodesPct, 0.1);
+  EXPECT_LE(differenceFromReference(scene, smallOptions()).pixelsGe2CodesPct, 0.1);
 }
 
 // --disable leaves out each effect in packets and in the reference.
 TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
-  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
+  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0}, 3)});
   for (const Effect effect : {Effect::spotLights, Effect::directionalLights}) {
     RenderOptions o = smallOptions();
     o.disable = EffectSet().with(effect);
-    Renderer renderer(scene, o);
-    Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-    renderer.render(chooseCamera(scene, o), packets);
-    renderReference(renderer, chooseCamera(scene, o), reference);
-
-    EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0);
+    EXPECT_LE(differenceFromReference(scene, o).pixelsGe2CodesPct, 0);
   }
 }
 
@@ -129,18 +110,8 @@ TEST(LightKinds, TheirKernelsKeepTheBitsOfPointLights) {
   EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
 }
 
-// Threads, tiles, queues and packets change no bit.
 TEST(LightKinds, HowTheFrameIsSplitChangesNoBit) {
-  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
-  const Image expected = render(scene, smallOptions()).image;
-  for (const int packet : {1, 4, 8, 16}) {
-    RenderOptions o = smallOptions();
-    o.packet = packet;
-    o.tile = 16;
-    o.queue = 48;
-    o.threads = 1;
-    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << packet;
-  }
+  expectBitsWhateverTheQueues(floorUnder({spot(15, 25), sun({3, -4, 0}, 3)}), smallOptions());
 }
 
 }  // namespace

@@ -19,36 +19,32 @@
 namespace whit {
 namespace {
 
+using test::described;
 using test::firstDifference;
+using test::repaired;
 using test::smallOptions;
 
 Scene orreryAt(double seconds) {
-  Warnings warnings;
   LoadOptions options;
   options.instant.seconds = seconds;
-  return Scene::finalize(loadScene("orrery", options, warnings), warnings);
+  return repaired(described("orrery", options));
 }
 
-Image pictureOf(Renderer& renderer, const Scene& scene, const RenderOptions& options) {
-  Film film = makeFilm(scene, options);
-  renderer.render(chooseCamera(scene, options), film);
-  return film.image;
-}
+Image pictureOf(Renderer& renderer) { return test::render(renderer).image; }
 
 Image pictureOf(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  return pictureOf(renderer, scene, options);
+  return test::render(scene, options).image;
 }
 
 TEST(MovingScene, PicturesFollowFromTheTimeAlone) {
   const RenderOptions options = smallOptions();
   Scene scene = orreryAt(0);
   Renderer renderer(scene, options);
-  const Image first = pictureOf(renderer, scene, options);
+  const Image first = pictureOf(renderer);
   for (const double seconds : {7.25, 2.4, 0.0, 2.4}) {
     moveScene(scene, seconds);
     renderer.sceneMoved();
-    const Image moved = pictureOf(renderer, scene, options);
+    const Image moved = pictureOf(renderer);
     EXPECT_EQ(firstDifference(moved, pictureOf(orreryAt(seconds), options)), "") << seconds;
     EXPECT_EQ(firstDifference(moved, first).empty(), seconds == 0) << seconds;
   }
@@ -100,10 +96,9 @@ class MovingFile : public testing::Test {
            "\"emission\": [1, 0, 0]}}, "
         << members << "}";
 
-    Warnings warnings;
     LoadOptions options;
     options.instant.seconds = seconds;
-    return Scene::finalize(loadScene(file_.string(), options, warnings), warnings);
+    return repaired(described(file_.string(), options));
   }
 
   std::filesystem::path file_;
@@ -144,7 +139,7 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   for (const double seconds : {3.0, 1.0, 4.0}) {
     moveScene(scene, seconds);
     renderer.sceneMoved();
-    const Seen seen = seenIn(pictureOf(renderer, scene, options));
+    const Seen seen = seenIn(pictureOf(renderer));
     const double t = seconds / 4, radius = (1 + t) * kPixels;
 
     // About as many pixels at the edge of the disc are counted that are less than half covered as
@@ -218,7 +213,7 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
     EXPECT_FALSE(scene.coplanar.empty());
 
     int white = 0;
-    for (const Rgb& pixel : pictureOf(renderer, scene, options).pixels) white += pixel.y > 0.5f;
+    for (const Rgb& pixel : pictureOf(renderer).pixels) white += pixel.y > 0.5f;
     // The smaller square measures two by two units.
     EXPECT_EQ(white, 16 * 16) << seconds;
   }
@@ -294,10 +289,7 @@ void expectAlikeMirrored(Scene scene) {
   const RenderOptions options = smallOptions();
   Renderer renderer(scene, options);
   const auto pictures = [&] {
-    Film packets = makeFilm(scene, options), reference = packets;
-    renderer.render(chooseCamera(scene, options), packets);
-    renderReference(renderer, chooseCamera(scene, options), reference);
-    return std::array<Image, 2>{packets.image, reference.image};
+    return std::array<Image, 2>{pictureOf(renderer), test::render(renderer, false).image};
   };
 
   const auto before = pictures();

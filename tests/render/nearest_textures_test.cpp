@@ -37,18 +37,11 @@ Scene pixelArt(bool everywhere) {
       m.roughnessMap = data[at];
     }
     if (i / 2 == 2) m.alphaMap = mask[at];
-    return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+    return tile(builder.add(m));
   });
 }
 
-TEST(NearestTextures, AgreeWithTheReferenceOnEveryTarget) {
-  const Scene scene = pixelArt(false);
-  for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
-    RenderOptions o = smallOptions();
-    o.shading.textureFilter = filter;
-    expectTheReferenceOnEveryTarget(scene, o);
-  }
-}
+TEST(NearestTextures, KeepTheLawsOfMaps) { expectTheLawsOfMaps(pixelArt(false)); }
 
 TEST(NearestTextures, AreLookedUpAsWhereAllAre) {
   Scene scene = pixelArt(true);
@@ -81,7 +74,7 @@ TEST(NearestTextures, CutTexelByTexel) {
     m.alphaMap = builder.add(t);
     // Bilinear alpha is below the cutoff only beyond u = 0.55, or nowhere.
     m.alphaCutoff = 0.4f;
-    builder.add(quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m)));
+    builder.add(tile(builder.add(m)));
     const Scene scene = builder.build();
 
     for (int i = 0; i < 100; ++i) {

@@ -51,11 +51,7 @@ TEST(NormalMaps, ApplyWhateverTheSpanOfTheirCoordinates) {
 
   for (const auto& [u, v] : kSpans) {
     const auto [scene, wanted] = leaningFloor(u, v);
-    Renderer renderer(scene, smallOptions());
-    Film packets = makeFilm(scene, smallOptions()), reference = makeFilm(scene, smallOptions());
-    renderer.render(scene.cameras[0], packets);
-    renderReference(renderer, scene.cameras[0], reference);
-
+    const auto [packets, reference] = renderBoth(scene, smallOptions());
     for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
       const double p = static_cast<double>(packets.image.pixels[i].x);
       ASSERT_NEAR(static_cast<double>(reference.image.pixels[i].x), wanted, kShaded)

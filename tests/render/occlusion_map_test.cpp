@@ -1,7 +1,6 @@
 // Occlusion maps: the vector pipeline against the reference, and their cost where there are none.
 #include <gtest/gtest.h>
 
-#include "render/plan.h"
 #include "render/row_of_tiles.h"
 
 namespace whit::test {
@@ -20,9 +19,7 @@ Scene occludedTiles() {
     if (i % 2 == 0) m.specular = Rgb(0.6f);
     if (i != 3) m.occlusionMap = map;
     m.occlusionBySecondUvs = i > 3;
-    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
-    mesh.secondUvs = {{0, 1}, {0, 0}, {1, 0}, {1, 1}};
-    return mesh;
+    return tile(builder.add(m));
   });
 }
 
@@ -39,24 +36,13 @@ TEST(OcclusionMaps, AgreeWithTheReferenceOnEveryTarget) {
 
   o.indirect = 2;
   expectTheReferenceOnEveryTarget(scene, o);
-}
-
-TEST(OcclusionMaps, KeepTheirBitsWhateverTheQueues) {
-  RenderOptions o = smallOptions();
-  o.indirect = 2;
-  expectBitsWhateverTheQueues(occludedTiles(), o);
+  expectBitsWhateverTheQueues(scene, o);
 }
 
 TEST(OcclusionMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = occludedTiles();
-  EXPECT_NE(makePlan(scene, smallOptions()).find("lookUpOcclusion"), nullptr);
-
-  RenderOptions o = smallOptions();
-  o.disable = EffectSet().with(Effect::textures);
-  EXPECT_EQ(makePlan(scene, o).find("lookUpOcclusion"), nullptr);
-
   for (Material& m : scene.materials) m.occlusionMap = kNoTexture;
-  EXPECT_EQ(makePlan(scene, smallOptions()).find("lookUpOcclusion"), nullptr);
+  expectStep("lookUpOcclusion", occludedTiles(), smallOptions(), {Effect::textures}, &scene);
 }
 
 }  // namespace

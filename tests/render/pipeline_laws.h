@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <vector>
+
 #include "inspect/metrics.h"
 #include "inspect/reference_frame.h"
 #include "inspect/stage_comparison.h"
@@ -29,41 +32,66 @@ inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions opt
   simd::chooseTarget("auto");
 }
 
-// Returns the difference between packets and the reference.
-inline ImageDifference differenceFromReference(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
-  renderer.render(chooseCamera(scene, options), packets);
-  renderReference(renderer, chooseCamera(scene, options), reference);
-  return compareImages(packets.image, reference.image);
+inline ImageDifference differenceOf(const BothModes& both) {
+  return compareImages(both.packets.image, both.reference.image);
 }
 
-// Expects the picture to agree with the reference where rays are sampled. Half a per cent of the
-// pixels may differ: each is the mean of dozens of paths, any of which may hit an edge.
-inline void expectSampledPictureAgrees(const Scene& scene, const RenderOptions& options) {
-  const ImageDifference d = differenceFromReference(scene, options);
+// Returns the difference between packets and the reference.
+inline ImageDifference differenceFromReference(const Scene& scene, const RenderOptions& options) {
+  return differenceOf(renderBoth(scene, options));
+}
+
+// Expects packets to agree with the reference where rays are sampled. Half a per cent of the pixels
+// may differ: each is the mean of dozens of paths, any of which may hit an edge.
+inline void expectSampledPictureAgrees(const BothModes& both) {
+  const ImageDifference d = differenceOf(both);
   EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
   EXPECT_LE(d.flipMean, 0.01);
   EXPECT_EQ(d.nonFinite, 0u);
 }
+inline void expectSampledPictureAgrees(const Scene& scene, const RenderOptions& options) {
+  expectSampledPictureAgrees(renderBoth(scene, options));
+}
+
+// Ways to divide the work.
+struct Division {
+  const char* name;
+  std::function<void(RenderOptions&)> set;
+};
+
+inline std::vector<Division> usualDivisions() {
+  return {
+      {"1 thread", [](RenderOptions& o) { o.threads = 1; }},
+      {"3 threads", [](RenderOptions& o) { o.threads = 3; }},
+      {"tiles of 8", [](RenderOptions& o) { o.tile = 8; }},
+      {"tiles of 11", [](RenderOptions& o) { o.tile = 11; }},
+      {"queues of 48", [](RenderOptions& o) { o.queue = 48; }},
+      {"whole frames", [](RenderOptions& o) { o.batch = Batch::frame; }},
+      {"packets of 4", [](RenderOptions& o) { o.packet = 4; }},
+      {"every effect", [](RenderOptions& o) { o.effects = EffectChoice::all; }},
+  };
+}
 
 // Expects the same bits however the work is divided.
-inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions& options) {
+inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions& options,
+                                        const std::vector<Division>& divisions = usualDivisions()) {
   const Image expected = render(scene, options).image;
-  const auto same = [&](const char* what, auto&& change) {
+  for (const Division& division : divisions) {
     RenderOptions o = options;
-    change(o);
-    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
-  };
+    division.set(o);
+    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << division.name;
+  }
+}
 
-  same("1 thread", [](RenderOptions& o) { o.threads = 1; });
-  same("3 threads", [](RenderOptions& o) { o.threads = 3; });
-  same("tiles of 8", [](RenderOptions& o) { o.tile = 8; });
-  same("tiles of 11", [](RenderOptions& o) { o.tile = 11; });
-  same("queues of 48", [](RenderOptions& o) { o.queue = 48; });
-  same("whole frames", [](RenderOptions& o) { o.batch = Batch::frame; });
-  same("packets of 4", [](RenderOptions& o) { o.packet = 4; });
-  same("every effect", [](RenderOptions& o) { o.effects = EffectChoice::all; });
+// Expects that a part of the picture has the bits of the whole.
+inline void expectBitsOfTheWhole(const Scene& scene, RenderOptions options, const Crop& crop) {
+  const Image whole = render(scene, options).image;
+  options.crop = crop;
+  const Image part = render(scene, options).image;
+  for (int y = crop.y0; y < crop.y1; ++y) {
+    for (int x = crop.x0; x < crop.x1; ++x)
+      EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << "," << y;
+  }
 }
 
 }  // namespace whit::test

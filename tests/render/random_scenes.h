@@ -70,8 +70,7 @@ struct Soup {
     description.instances.push_back(
         {static_cast<std::uint32_t>(description.objects.size() - 1), Affine{}});
 
-    Warnings warnings;
-    return Scene::finalize(std::move(description), warnings);
+    return repaired(std::move(description));
   }
 };
 

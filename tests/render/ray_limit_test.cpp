@@ -85,10 +85,7 @@ TEST(RayLimit, BoundsTheCountedRays) {
 
   const auto film = [&](int maxRays) {
     o.maxRays = maxRays;
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o);
-    renderer.render(chooseCamera(scene, o), film);
-    return film;
+    return render(scene, o);
   };
 
   Film limited = film(24), whole = film(0);

@@ -1,7 +1,6 @@
 // Roughness maps: the vector pipeline against the reference, and their cost where there are none.
 #include <gtest/gtest.h>
 
-#include "render/plan.h"
 #include "render/row_of_tiles.h"
 
 namespace whit::test {
@@ -27,7 +26,7 @@ Scene roughTiles() {
     m.glossyReflection = i % 2 == 0;
     if (i == 3) m.mirror = Rgb(0.2f);
     if (i != 2) m.roughnessMap = i < 2 ? checks : slope;
-    return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+    return tile(builder.add(m));
   });
 }
 
@@ -37,19 +36,7 @@ RenderOptions withSamples() {
   return o;
 }
 
-TEST(RoughnessMaps, AgreeWithTheReferenceOnEveryTarget) {
-  const Scene scene = roughTiles();
-  for (const TextureFilter filter :
-       {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
-    RenderOptions o = withSamples();
-    o.shading.textureFilter = filter;
-    expectTheReferenceOnEveryTarget(scene, o);
-  }
-}
-
-TEST(RoughnessMaps, KeepTheirBitsWhateverTheQueues) {
-  expectBitsWhateverTheQueues(roughTiles(), withSamples());
-}
+TEST(RoughnessMaps, KeepTheLawsOfMaps) { expectTheLawsOfMaps(roughTiles(), withSamples()); }
 
 TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
   Scene scene = roughTiles();
@@ -71,14 +58,8 @@ TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
 
 TEST(RoughnessMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = roughTiles();
-  EXPECT_NE(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
-
-  RenderOptions o = withSamples();
-  o.disable = EffectSet().with(Effect::textures);
-  EXPECT_EQ(makePlan(scene, o).find("lookUpRoughness"), nullptr);
-
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
-  EXPECT_EQ(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
+  expectStep("lookUpRoughness", roughTiles(), withSamples(), {Effect::textures}, &scene);
 }
 
 }  // namespace

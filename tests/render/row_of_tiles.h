@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
 #include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
+#include "render/plan.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -35,19 +37,29 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   return builder.build();
 }
 
+// The square [0, 1]^2 of the floor y = 0. The first u runs along x and v along -z; the second u
+// runs along -z and v along -x.
+inline Mesh tile(std::uint32_t material) {
+  Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
+  mesh.secondUvs = {{0, 1}, {0, 0}, {1, 0}, {1, 1}};
+  return mesh;
+}
+
+// A map of four colors.
+inline std::int32_t addColors(SceneBuilder& builder) {
+  return builder.add(makeTexture(TexelFormat::color, 2, 2,
+                                 {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+}
+
 // Another surface may be hit at edges, in 0.1 % of the picture.
 inline constexpr std::size_t kPixelsAtEdges = 7;
 
 inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptions& o,
                                            const std::string& what) {
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), film);
-  renderReference(renderer, chooseCamera(scene, o), reference);
-
+  const auto [packets, reference] = renderBoth(scene, o);
   std::size_t differences = 0;
-  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
-    const Rgb apart = abs(film.image.pixels[i] - reference.image.pixels[i]);
+  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+    const Rgb apart = abs(packets.image.pixels[i] - reference.image.pixels[i]);
     differences += !(maxComponent(apart) < 1e-3f);
   }
 
@@ -62,6 +74,40 @@ inline void expectTheReferenceOnEveryTarget(const Scene& scene, RenderOptions op
     expectThePictureOfTheReference(scene, options, target);
   }
   simd::chooseTarget("auto");
+}
+
+// Expects the reference with every filter of textures, and the same bits whatever the queues.
+inline void expectTheLawsOfMaps(const Scene& scene, RenderOptions options = smallOptions()) {
+  expectBitsWhateverTheQueues(scene, options);
+  for (const TextureFilter filter :
+       {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
+    options.shading.textureFilter = filter;
+    expectTheReferenceOnEveryTarget(scene, options);
+  }
+}
+
+// Expects the step in the plan, but neither without any of the effects nor in `plain`.
+inline void expectStep(const char* step, const Scene& scene, const RenderOptions& options,
+                       std::initializer_list<Effect> effects, const Scene* plain = nullptr) {
+  EXPECT_NE(makePlan(scene, options).find(step), nullptr) << step;
+  for (const Effect effect : effects) {
+    RenderOptions o = options;
+    o.disable = EffectSet().with(effect);
+    EXPECT_EQ(makePlan(scene, o).find(step), nullptr) << step;
+  }
+  if (plain) {
+    EXPECT_EQ(makePlan(*plain, options).find(step), nullptr) << step;
+  }
+}
+
+// Expects the picture of the reference without each of the effects.
+inline void expectTheReferenceWithout(const Scene& scene, std::initializer_list<Effect> effects) {
+  for (const Effect effect : effects) {
+    RenderOptions o = smallOptions();
+    o.disable = EffectSet().with(effect);
+    const auto name = kEffectNames[static_cast<std::size_t>(effect)].name;
+    expectThePictureOfTheReference(scene, o, std::string(name));
+  }
 }
 
 }  // namespace whit::test

@@ -11,11 +11,6 @@ namespace {
 
 using namespace verify;
 
-SceneDescription description(const std::string& name) {
-  Warnings warnings;
-  return loadScene(name, LoadOptions{}, warnings);
-}
-
 Vec3f scaled(const Vec3f& v, int k) {
   return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
 }
@@ -49,15 +44,14 @@ void scale(SceneDescription& d, int k) {
 class Scaling : public testing::TestWithParam<std::string> {};
 
 TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
-  Warnings warnings;
-  const SceneDescription loaded = description(GetParam());
-  const Scene original = Scene::finalize(SceneDescription(loaded), warnings);
+  const SceneDescription loaded = described(GetParam());
+  const Scene original = repaired(loaded);
   const Image expected = render(original, smallOptions()).image;
 
   for (const int k : {-20, -7, 1, 20}) {
     SceneDescription d = loaded;
     scale(d, k);
-    const Scene scene = Scene::finalize(std::move(d), warnings);
+    const Scene scene = repaired(std::move(d));
     EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "")
         << GetParam() << " times 2^" << k;
   }
@@ -87,19 +81,17 @@ SceneDescription masked() {
 }
 
 TEST(ScalingOfMasks, H61a_aPowerOfTwoLeavesEveryBit) {
-  Warnings warnings;
-  const Image expected = render(Scene::finalize(masked(), warnings), smallOptions()).image;
+  const Image expected = render(repaired(masked()), smallOptions()).image;
   for (const int k : {-25, -20, -17, 20}) {
     SceneDescription d = masked();
     scale(d, k);
-    const Scene scene = Scene::finalize(std::move(d), warnings);
+    const Scene scene = repaired(std::move(d));
     EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "") << "2^" << k;
   }
 }
 
 TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
-  Warnings warnings;
-  const SceneDescription loaded = description(GetParam());
+  const SceneDescription loaded = described(GetParam());
 
   const auto lit = [&](int k) {
     SceneDescription d = loaded;
@@ -108,7 +100,7 @@ TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
     d.ambient = Ambient{};
     for (Material& m : d.materials) m.emission = Rgb(0.0f);
     for (Light& light : d.lights) light.intensity = scaled(light.intensity, k);
-    return render(Scene::finalize(std::move(d), warnings), smallOptions()).image;
+    return render(repaired(std::move(d)), smallOptions()).image;
   };
 
   Image expected = lit(0);

@@ -87,10 +87,7 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
   for (const Choice& choice : choices()) {
     RenderOptions o = smallOptions();
     choice.make(o);
-    Renderer renderer(scene, o);
-    Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-    const FrameStats a = renderer.render(chooseCamera(scene, o), packets);
-    const FrameStats b = renderReference(renderer, chooseCamera(scene, o), reference);
+    const auto [packets, reference] = renderBoth(scene, o);
     const ImageDifference d = compareImages(packets.image, reference.image);
     std::printf("%s, %s: %.4f %% of pixels off by two codes or more (at most 0.1)\n",
                 GetParam().c_str(), choice.name.c_str(), d.pixelsGe2CodesPct);
@@ -100,8 +97,8 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     EXPECT_LE(d.pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1) << choice.name;
 
     for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
-      const auto rays = static_cast<double>(b.meter.tally[kind].rays);
-      EXPECT_NEAR(static_cast<double>(a.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
+      const auto rays = static_cast<double>(reference.stats.meter.tally[kind].rays);
+      EXPECT_NEAR(static_cast<double>(packets.stats.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
           << choice.name;
     }
   }

@@ -12,8 +12,16 @@
 #include "io/load_scene.h"
 #include "render/renderer.h"
 #include "sanitized.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
+
+using verify::repaired;
+
+inline SceneDescription described(const std::string& name, const LoadOptions& options = {}) {
+  Warnings warnings;
+  return loadScene(name, options, warnings);
+}
 
 // Scenes are made once a process, because that takes most of the time of a small picture.
 inline Scene load(const std::string& name) {
@@ -21,9 +29,7 @@ inline Scene load(const std::string& name) {
   const auto known = scenes.find(name);
   if (known != scenes.end()) return known->second;
 
-  Warnings warnings;
-  return scenes.emplace(name, Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings))
-      .first->second;
+  return scenes.emplace(name, repaired(described(name))).first->second;
 }
 
 inline constexpr ImageSize kSmallSize{107, 67};
@@ -39,20 +45,32 @@ inline RenderOptions smallOptions() {
   return o;
 }
 
-struct Picture {
-  Image image;
+// A frame with its statistics.
+struct Picture : Film {
   FrameStats stats;
 };
 
-// In packets or by the reference.
+// In packets or by the reference, as the renderer is now.
+inline Picture render(Renderer& renderer, bool packets = true) {
+  const Camera camera = chooseCamera(renderer.scene(), renderer.options());
+  Picture picture{makeFilm(renderer.scene(), renderer.options()), {}};
+  picture.stats =
+      packets ? renderer.render(camera, picture) : renderReference(renderer, camera, picture);
+  return picture;
+}
+
 inline Picture render(const Scene& scene, const RenderOptions& options, bool packets = true) {
   Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  Picture picture;
-  picture.stats = packets ? renderer.render(camera, film) : renderReference(renderer, camera, film);
-  picture.image = film.image;
-  return picture;
+  return render(renderer, packets);
+}
+
+struct BothModes {
+  Picture packets, reference;
+};
+
+inline BothModes renderBoth(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  return {render(renderer), render(renderer, false)};
 }
 
 // Returns a description of the first pixel whose bits differ, or an empty string.

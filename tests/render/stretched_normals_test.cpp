@@ -41,10 +41,7 @@ void expectAlike(const Image& a, const Image& b, const char* what) {
 }
 
 Image referenceOf(const Scene& scene, const RenderOptions& o) {
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  renderReference(renderer, chooseCamera(scene, o), film);
-  return film.image;
+  return render(scene, o, false).image;
 }
 
 TEST(StretchedNormals, AreThoseOfAnInstance) {

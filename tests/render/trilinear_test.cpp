@@ -5,11 +5,7 @@
 #include <tuple>
 
 #include "inspect/metrics.h"
-#include "inspect/reference_frame.h"
-#include "reference/small_scenes.h"
-#include "render/pipeline_laws.h"
-#include "render/renderer.h"
-#include "simd/kernels.h"
+#include "render/row_of_tiles.h"
 
 namespace whit::test {
 namespace {
@@ -72,29 +68,10 @@ SceneDescription textured() {
   return builder.describe();
 }
 
-Scene frozen(SceneDescription d) {
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
-}
+Scene frozen(SceneDescription d) { return repaired(std::move(d)); }
 
 TEST(Trilinear, AgreesWithTheReferenceOnEveryTarget) {
-  const Scene scene = frozen(textured());
-  RenderOptions o = trilinear();
-  Film reference = makeFilm(scene, o);
-  Renderer renderer(scene, o);
-  renderReference(renderer, chooseCamera(scene, o), reference);
-
-  expectStagesAgreeOnEveryTarget(scene, o);
-  for (const std::string& target : simd::availableTargets()) {
-    o.simd = target;
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o);
-    renderer.render(chooseCamera(scene, o), film);
-
-    // The bound is that of pictures with default options.
-    EXPECT_LE(compareImages(film.image, reference.image).pixelsGe2CodesPct, 0.1) << target;
-  }
-  simd::chooseTarget("auto");
+  expectTheReferenceOnEveryTarget(frozen(textured()), trilinear());
 }
 
 TEST(Trilinear, KeepsItsBitsWhateverTheQueues) {

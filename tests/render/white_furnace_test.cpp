@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "facets.h"
 #include "io/files.h"
 #include "io/memory_budget.h"
 #include "io/model.h"
@@ -291,30 +292,6 @@ TEST(WhiteFurnace, LobesThatAreNotSampledTakeWhatTheyReflect) {
   }
 }
 
-// The lobe's albedo by the midpoint rule over the half vectors of the formulas: Walter et al. 2007
-// for the facets, Heitz 2014 for the masking.
-double albedoByHalfVectors(double roughness, double nv) {
-  constexpr int kSteps = 400;
-  const double a2 = std::pow(roughness, 4), sine = std::sqrt(1 - nv * nv);
-  const auto lambda = [&](double c) { return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2; };
-
-  double albedo = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int k = 0; k < kSteps; ++k) {
-      const double nl = (i + 0.5) / kSteps, turn = 2 * kPi * (k + 0.5) / kSteps;
-      const double across = std::sqrt(1 - nl * nl);
-      const double x = sine + across * std::cos(turn), y = across * std::sin(turn), z = nv + nl;
-      const double size = std::sqrt(x * x + y * y + z * z), nh = z / size;
-      const double vh = (sine * x + nv * z) / size, spread = nh * nh * (a2 - 1) + 1;
-
-      const double lobe = a2 / (kPi * spread * spread) / (1 + lambda(nl) + lambda(nv)) /
-                          (4 * nl * nv) * (0.04 + 0.96 * std::pow(1 - vh, 5));
-      albedo += lobe * nl * 2 * kPi / (kSteps * kSteps);
-    }
-  }
-  return albedo;
-}
-
 // The mean of what the samples leave is 1 less the lobe's albedo.
 TEST(WhiteFurnace, DiffuseColorsGetWhatTheLobesAlbedoLeaves) {
   SceneBuilder builder;
@@ -332,7 +309,7 @@ TEST(WhiteFurnace, DiffuseColorsGetWhatTheLobesAlbedoLeaves) {
       reference::findLayers(scene, effects, {}, {}, {1, {4096, 0, 0}}, s);
 
       // 2e-3: what 4096 points of a lattice and the midpoint rule leave.
-      EXPECT_NEAR(s.diffuse.x, 1 - albedoByHalfVectors(roughness, nv), 2e-3)
+      EXPECT_NEAR(s.diffuse.x, 1 - albedoByFacets(0.04, 1, roughness, nv), 2e-3)
           << roughness << ' ' << nv;
     }
   }

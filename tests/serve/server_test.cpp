@@ -442,8 +442,7 @@ TEST_F(Serving, WithoutASceneTheShippedOnesAreOffered) {
 
   view::ViewOptions options = options_;
   options.scene.clear();
-  options.choosesScene = true;
-  ServedSession session(options, noScene());
+  ServedSession session(options, nullptr);
   session.watch(1);
   std::shared_ptr<const Shot> shot;
   // Waits until a text of the shots holds these words.

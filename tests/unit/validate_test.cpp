@@ -23,55 +23,28 @@ struct Refusal {
   std::vector<std::string> parts;
 };
 
-void addLight(SceneDescription& d, const Light& light) { d.lights.push_back(light); }
+Refusal ofLight(const char* name, const Light& light, const std::vector<std::string>& parts) {
+  return {name, [light](SceneDescription& d) { d.lights.push_back(light); }, parts};
+}
 
 const std::vector<Refusal>& refusals() {
   static const std::vector<Refusal> all{
-      {"light position",
-       [](auto& d) {
-         addLight(d, {"key", {0, std::nanf(""), 0}});
-       },
-       {"test: light 'key'", "finite position"}},
-      {"unnamed light",
-       [](auto& d) {
-         addLight(d, {"", {0, kInf, 0}});
-       },
-       {"light 0", "finite position"}},
-      {"light intensity",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, -1, 1}});
-       },
-       {"light 'key'", "intensity"}},
-      {"light radius",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 0});
-       },
-       {"radius"}},
-      {"light radius too small to square",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 1e-20f});
-       },
-       {"radius"}},
-      {"spot light to nowhere",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 0, 0}});
-       },
-       {"light 'key'", "direction"}},
-      {"directional light from everywhere",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::directional, {0, kInf, 0}});
-       },
-       {"light 'key'", "direction"}},
-      {"cone inside out",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 30});
-       },
-       {"light 'key'", "inner < outer"}},
-      {"cone beyond a right angle",
-       [](auto& d) {
-         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 91});
-       },
-       {"light 'key'", "from 0.5 to 90"}},
+      ofLight("light position", {"key", {0, std::nanf(""), 0}},
+              {"test: light 'key'", "finite position"}),
+      ofLight("unnamed light", {"", {0, kInf, 0}}, {"light 0", "finite position"}),
+      ofLight("light intensity", {"key", {}, {1, -1, 1}}, {"light 'key'", "intensity"}),
+      ofLight("light radius", {"key", {}, {1, 1, 1}, 0}, {"radius"}),
+      ofLight("light radius too small to square", {"key", {}, {1, 1, 1}, 1e-20f}, {"radius"}),
+      ofLight("spot light to nowhere", {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 0, 0}},
+              {"light 'key'", "direction"}),
+      ofLight("directional light from everywhere",
+              {"key", {}, {1, 1, 1}, 1, Light::Kind::directional, {0, kInf, 0}},
+              {"light 'key'", "direction"}),
+      ofLight("cone inside out", {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 30},
+              {"light 'key'", "inner < outer"}),
+      ofLight("cone beyond a right angle",
+              {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 91},
+              {"light 'key'", "from 0.5 to 90"}),
 
       {"ior of a dielectric",
        [](auto& d) {

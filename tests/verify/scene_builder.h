@@ -111,7 +111,7 @@ class SceneBuilder {
 };
 
 // Makes the scene like a loaded one: repairs and counts bad data.
-inline Scene repaired(SceneDescription&& description, Warnings* warnings = nullptr) {
+inline Scene repaired(SceneDescription description, Warnings* warnings = nullptr) {
   Warnings own;
   return Scene::finalize(std::move(description), warnings ? *warnings : own);
 }

@@ -251,7 +251,7 @@ TEST_F(RenderThreadTest, ReloadsTheScene) {
   text.replace(text.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.9");
   std::ofstream(name_) << text;
 
-  thread.load(readScene({name_, {}, {}}, common_, request_.options));
+  thread.load(readScene({.name = name_, .options = request_.options}, common_));
   const TracedFrame frame = traced(thread);
   EXPECT_NE(frame.scene, scene_);
   scene_ = frame.scene;

@@ -134,6 +134,49 @@ TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
   EXPECT_EQ(state().error, "");
 }
 
+// A session that begins without a scene and one that is given the scene show the same.
+TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
+  options_.common.load.settings = lamp_;
+  options_.common.render.camera = "side";
+  options_.common.render.fov = 30.0;
+  options_.common.given = {"camera", "fov"};
+  session_ = std::make_unique<Session>(
+      options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
+  session_->setWindow({48, 32}, 32, 1);
+  settle();
+  const std::string given = session_->command();
+  EXPECT_TRUE(hasText(given, "--fov=30 "));
+  EXPECT_TRUE(hasText(given, lamp_[0]));
+
+  session_ = std::make_unique<Session>(options_, nullptr, [] {});
+  session_->setWindow({48, 32}, 32, 1);
+  settle();
+  EXPECT_TRUE(session_->choosesScene());
+  EXPECT_EQ(session_->command(), "") << "the empty scene has a command";
+  session_->open(options_.scene);
+  settle();
+  EXPECT_EQ(session_->command(), given);
+  EXPECT_FALSE(session_->hasUnsavedEdits());
+
+  // Neither holds for another scene, which has no such camera.
+  session_->open("whitted");
+  settle();
+  EXPECT_EQ(state().error, "");
+  EXPECT_EQ(session_->command().find("whit render whitted -o whitted.png --size"), 0u);
+  EXPECT_FALSE(hasText(session_->command(), "--fov"));
+  EXPECT_EQ(settings(), none_);
+}
+
+TEST_F(Sessions, AFirstSceneThatCannotBeReadLeavesTheChoice) {
+  session_ = std::make_unique<Session>(options_, nullptr, [] {});
+  session_->setWindow({48, 32}, 32, 1);
+  session_->open("missing.json");
+  settle();
+  EXPECT_TRUE(hasText(state().error, "missing.json"));
+  EXPECT_EQ(state().status, ExitStatus::io);
+  EXPECT_TRUE(session_->choosesScene());
+}
+
 // The page of a browser has no other way to end a long reading.
 TEST_F(Sessions, CloseDismissesAnErrorAndThenGivesUpReading) {
   session_->open("landscape?triangles=2000000");

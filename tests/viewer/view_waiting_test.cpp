@@ -34,7 +34,7 @@ class Reading : public RenderThreadTest {
 TEST_F(Reading, HandsOverTheScene) {
   SceneReader reader(common_);
   EXPECT_EQ(reader.text(), "");
-  reader.read({name_, {"/lights/0/position/0=-2"}, {}}, request_.options);
+  reader.read({name_, {"/lights/0/position/0=-2"}});
   EXPECT_TRUE(reader.busy());
   EXPECT_EQ(reader.text().find("reading " + name_), 0u) << reader.text();
 
@@ -48,7 +48,7 @@ TEST_F(Reading, HandsOverTheScene) {
 TEST_F(Reading, ABrokenSceneIsAnError) {
   std::ofstream(name_) << "{ \"whit\": 1, ";
   SceneReader reader(common_);
-  reader.read({name_, {}, {}}, request_.options);
+  reader.read({name_});
 
   std::string what;
   try {
@@ -62,8 +62,8 @@ TEST_F(Reading, ABrokenSceneIsAnError) {
 
 TEST_F(Reading, TheLastChoiceCounts) {
   SceneReader reader(common_);
-  reader.read({kSlowScene, {}, {}}, request_.options);
-  reader.read({name_, {}, {}}, request_.options);
+  reader.read({kSlowScene});
+  reader.read({name_});
   const std::unique_ptr<Engine> scene = waitFor(reader);
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->opened()->source.name, name_);
@@ -72,7 +72,7 @@ TEST_F(Reading, TheLastChoiceCounts) {
 
 TEST_F(Reading, IsGivenUp) {
   SceneReader reader(common_);
-  reader.read({kSlowScene, {}, {}}, request_.options);
+  reader.read({kSlowScene});
   reader.giveUp();
   EXPECT_FALSE(reader.busy());
   EXPECT_EQ(reader.text(), "");
@@ -81,7 +81,7 @@ TEST_F(Reading, IsGivenUp) {
 
 TEST_F(Reading, ASceneThatWasReadIsFreedWhenItIsGivenUp) {
   SceneReader reader(common_);
-  reader.read({name_, {}, {}}, request_.options);
+  reader.read({name_});
   reader.giveUp();
 
   for (int i = 0; i < 60'000 && reader.holds(); ++i) {

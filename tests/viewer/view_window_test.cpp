@@ -330,6 +330,12 @@ TEST_F(Viewer, ErrorsEndAScript) {
 
   std::ofstream(folder_ / "script.txt") << "wait\n";
   EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
+
+  // A first scene that cannot be read, or lacks the camera, ends it as it ends other commands.
+  std::ofstream(folder_ / "script.txt") << "errors show\nwait 60 frames\n";
+  EXPECT_EQ(view({"--camera", "nowhere", "--script", "script.txt"}).status, 2);
+  std::ofstream(folder_ / "tiny.json") << "{";
+  EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
 }
 
 TEST(ViewerAlone, SaysThatThereIsNoDisplay) {

@@ -49,8 +49,8 @@ cli::OptionList listOptions(ServeJob& job) {
 int serve(const ServeJob& job) {
   auto progress = cli::makeProgressBar(job.view.common);
   const std::string& name = job.view.scene;
-  const std::shared_ptr<OpenScene> scene =
-      name.empty() ? noScene() : openAndWarn(name, job.view.common, progress.get());
+  std::shared_ptr<OpenScene> scene;
+  if (!name.empty()) scene = openAndWarn(name, job.view.common, progress.get());
 
   ServedSession session(job.view, scene);
   progress.reset();
@@ -105,7 +105,6 @@ int serveCommand(const std::vector<std::string>& words) {
   if (!cli::parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
   checkScene(job);
   view::settleViewOptions(job.view);
-  job.view.choosesScene = job.scenes.empty();
   if (!job.scenes.empty()) job.view.scene = job.scenes[0];
   return serve(job);
 }

@@ -45,13 +45,6 @@ Json describe(const view::Control& control) {
 
 }  // namespace
 
-std::shared_ptr<OpenScene> noScene() {
-  // With light, nothing says why the picture is black.
-  const Json root{{"whit", 1}, {"ambient", {{"color", 1}}}};
-  const auto text = std::make_shared<const SceneText>(SceneText{"", root, {}});
-  return openScene({"", text}, {}, false);
-}
-
 void ServedSession::Alarm::ring() {
   {
     const std::lock_guard lock(mutex);
@@ -70,8 +63,7 @@ ServedSession::ServedSession(const view::ViewOptions& options,
                              const std::shared_ptr<OpenScene>& scene, std::shared_ptr<Alarm> alarm)
     : alarm_(std::move(alarm)),
       session_(options, scene, [alarm = alarm_] { alarm->ring(); }),
-      size_(
-          options.common.render.size.value_or(ImageSize{scene->scene.width, scene->scene.height})),
+      size_(options.common.render.size.value_or(view::sizeOf(session_.state().scene->scene))),
       loop_([this] { loop(); }) {}
 
 ServedSession::~ServedSession() {

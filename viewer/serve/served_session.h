@@ -34,9 +34,6 @@ struct Download {
   std::string scene, bytes;
 };
 
-// Returns an empty scene, which is served until another one is chosen.
-std::shared_ptr<OpenScene> noScene();
-
 class ServedSession {
  public:
   // Wakes the loop; the tracing thread may outlive the rest of this object.
@@ -47,7 +44,7 @@ class ServedSession {
     void ring();
     void wait(double seconds);
   };
-  // With options.choosesScene pages choose among the shipped scenes, and `scene` is noScene().
+  // Without `scene` pages choose among the shipped ones.
   ServedSession(const view::ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                 std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
   ~ServedSession();

@@ -6,6 +6,7 @@
 #include "core/option_table.h"
 #include "output/frame_summary.h"
 #include "render/renderer.h"
+#include "scene/members.h"
 
 namespace whit::view {
 
@@ -36,6 +37,11 @@ class OptionsInUse {
 
 }  // namespace
 
+void clearCamera(RenderOptions& options) {
+  options.camera.clear();
+  forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
+}
+
 void copySampledRays(const RenderOptions& from, RenderOptions& to) {
   to.glossy = from.glossy;
   to.indirect = from.indirect;
@@ -51,7 +57,9 @@ bool hasSampledRays(const RenderOptions& options) {
 
 FrameTracer::FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common)
     : warns_(common.warns), engine_(std::make_unique<Engine>(std::move(scene))) {
-  engine_->setOptions(common.render, common.given);
+  RenderOptions options = common.render;
+  clearCamera(options);
+  engine_->setOptions(options, common.given);
   engine_->prepare();
 }
 
@@ -112,6 +120,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   // The command of the picture then makes the reference, too.
   if (request.view == DebugView::reference) options.mode = Mode::reference;
   engine_->setOptions(options);
+  engine_->lookThrough(request.camera);  // an automatic exposure is measured there
   engine_->prepare();
 
   frame.costs.clear();

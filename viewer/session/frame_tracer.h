@@ -89,6 +89,9 @@ inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   return samePicture(a, b);
 }
 
+// Resets the options that choose a camera. They belong to the first scene; pictures are requested
+// with cameras of their own.
+void clearCamera(RenderOptions& options);
 // Copies the options that say how many rays are sampled for each hit. The default options sample
 // none.
 void copySampledRays(const RenderOptions& from, RenderOptions& to);

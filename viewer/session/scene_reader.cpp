@@ -8,7 +8,7 @@
 namespace whit::view {
 
 std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions common,
-                                  const RenderOptions& options, Progress* progress) {
+                                  Progress* progress) {
   common.load.settings = choice.settings;
   common.load.instant.animation = choice.animation;
   if (choice.sky) {
@@ -17,22 +17,26 @@ std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions 
   }
 
   auto engine = std::make_unique<Engine>(openAndWarn(choice.name, common, progress));
-  engine->setOptions(options);
+  if (choice.options) {
+    engine->setOptions(*choice.options);
+  } else {
+    engine->setOptions(common.render, common.given);
+  }
   engine->prepare(progress);
   return engine;
 }
 
-void SceneReader::read(const SceneChoice& choice, const RenderOptions& options) {
+void SceneReader::read(const SceneChoice& choice) {
   giveUp();
   text_ = "reading " + choice.name;
   progress_ = std::make_shared<LatestProgress>();
 
   // Two scenes are never read at the same time: together they may need too much memory.
-  const auto work = [choice, common = common_, options, progress = progress_,
+  const auto work = [choice, common = common_, progress = progress_,
                      before = reading_.share()]() mutable {
     if (before.valid()) before.wait();
     before = {};
-    return readScene(choice, common, options, progress.get());
+    return readScene(choice, common, progress.get());
   };
   reading_ = std::async(std::launch::async, work);
 }

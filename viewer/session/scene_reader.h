@@ -15,14 +15,16 @@ namespace whit::view {
 
 struct SceneChoice {
   std::string name;
-  std::vector<std::string> settings;
-  std::string animation;                // empty: the first one
+  std::vector<std::string> settings = {};
+  std::string animation = {};           // empty: the first one
   std::optional<std::string> sky = {};  // sky of a scene that is read again with its edits
+  // All options of the renderer; without them it has those of the command line and of the scene.
+  std::optional<RenderOptions> options = {};
 };
 
-// Reads the scene and builds a renderer with these options. Throws as the reader and the renderer.
+// Reads the scene and builds its renderer. Throws as the reader and the renderer.
 std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions common,
-                                  const RenderOptions& options, Progress* progress = nullptr);
+                                  Progress* progress = nullptr);
 
 // It belongs to one thread, which never waits before the end.
 class SceneReader {
@@ -32,7 +34,7 @@ class SceneReader {
   ~SceneReader() { giveUp(); }
 
   // Begins to read in place of what was being read.
-  void read(const SceneChoice& choice, const RenderOptions& options);
+  void read(const SceneChoice& choice);
   void giveUp();
   // Hands over the scene once it is read, or throws what has kept it from being read. Frees a
   // scene that was given up.

@@ -25,6 +25,13 @@ std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   return std::filesystem::last_write_time(file, error);
 }
 
+std::shared_ptr<OpenScene> emptyScene() {
+  // With light, nothing says why the picture is black.
+  const Json root{{"whit", 1}, {"ambient", {{"color", 1}}}};
+  const auto text = std::make_shared<const SceneText>(SceneText{"", root, {}});
+  return openScene({"", text}, {}, false);
+}
+
 // All scales are multiples of 1/16.
 std::string fraction(double scale) {
   int above = static_cast<int>(std::lround(scale * 16)), below = 16;
@@ -181,29 +188,49 @@ Selection select(const RayPick& pick) {
 
 Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                  std::function<void()> onChange)
+    : Session(options, scene != nullptr, scene ? scene : emptyScene(), std::move(onChange)) {}
+
+Session::Session(const ViewOptions& options, bool hasScene, const std::shared_ptr<OpenScene>& scene,
+                 std::function<void()> onChange)
     : options_(options),
+      hasScene_(hasScene),
       reader_(options.common),
       thread_(scene, options.common, std::move(onChange)),
-      control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
-      resolution_(options.rate, options.common.render.spp),
-      subject_(subjectOf(scene->scene)) {
+      control_(scene->scene.cameras.front(), 1),
+      resolution_(options.rate, options.common.render.spp) {
   state_.scene = scene;
   state_.edited = editedScene(*scene);
+  state_.options = cli::optionsFor(scene->scene, options.common);
+  clearCamera(state_.options);
+  state_.view = options.view;
+  enterScene(hasScene ? options.scene : "", hasScene);
+}
+
+// Begins with a scene that was not shown before: with the first one at the camera and the time of
+// the command line, otherwise at its first camera and its own time.
+void Session::enterScene(const std::string& name, bool isFirst) {
+  watch(name);
+  forgetRays();
+  subject_ = subjectOf(scene());
   state_.ownSky = state_.edited.sky;
   savedSettings_ = readSettings_ = state_.edited.settings;
-  watch(options.scene);
-
-  state_.options = cli::optionsFor(scene->scene, options.common);
-  state_.view = options.view;
-  state_.timeline = timelineOf(scene->scene, options.common.load.instant);
-  if (scene->isMade) state_.timeline.animations.clear();  // others would have to be read
   past_ = {present()};
 
-  // If the view is that of one of the scene's cameras, it moves with that camera.
-  const Camera start = control_.camera();
+  const cli::CommonOptions& given = options_.common;
+  state_.timeline = timelineOf(scene(), isFirst ? given.load.instant : Instant());
+  if (state_.scene->isMade) state_.timeline.animations.clear();  // others would have to be read
+  pathTime_.reset();
+  restSeconds_ = 0;
+
+  const std::vector<Camera>& cameras = scene().cameras;
+  const Camera start = isFirst ? chooseCamera(scene(), given.render) : cameras.front();
+  control_ = CameraControl(start, cruisingSpeed(scene()));
   show(start);
-  for (std::size_t i = 0; i < scene->scene.cameras.size() && !state_.followed; ++i) {
-    if (sameView(scene->scene.cameras[i], start)) state_.followed = i;
+
+  // If the view is that of one of the scene's cameras, it moves with that camera.
+  state_.followed.reset();
+  for (std::size_t i = 0; i < cameras.size() && !state_.followed; ++i) {
+    if (sameView(cameras[i], start)) state_.followed = i;
   }
 }
 
@@ -219,8 +246,9 @@ void Session::act(const std::string& lines) {
   for (const Message& message : readMessages(lines)) act(message);
 }
 
-void Session::fail(const std::string& error) {
+void Session::fail(const std::string& error, ExitStatus status) {
   state_.error = error;
+  state_.status = status;
   ++state_.errors;
 }
 
@@ -265,7 +293,7 @@ bool Session::isActive() const {
 
 bool Session::isComplete() const {
   const FrameRequest& shown = state_.shown.request;
-  return state_.shown.scene && shown.options.size == shown.window && !shown.plain &&
+  return showsScene() && shown.options.size == shown.window && !shown.plain &&
          shown.spp >= state_.options.spp && sameSubject(shown, requestFor({}, true));
 }
 
@@ -373,7 +401,8 @@ bool Session::fetchFrame() {
   if (!thread_.take(state_.shown)) return answered;
   state_.unfinished.reset();
   if (state_.shown.scene != state_.scene && followScene()) {
-    return false;  // the picture is from the camera of the other scene
+    state_.shown = TracedFrame();  // the picture is from the camera of the other scene
+    return false;
   }
 
   // An automatic exposure is measured once, and then stays while the view changes.
@@ -419,6 +448,8 @@ bool Session::followScene() {
 }
 
 void Session::learnTimes() {
+  if (!hasScene_) return;  // the empty scene says nothing about others
+
   // The cost of a sample decides the resolution of the next picture in motion.
   const FrameRequest& request = state_.shown.request;
   if (request.view == viewToTrace(request.interruptible)) {
@@ -603,7 +634,7 @@ void Session::load(const SceneChoice& choice) {
   state_.message.clear();
   readEdits_ = edits_;
   readAnimation_ = choice.animation;
-  reader_.read(choice, state_.options);
+  reader_.read(choice);
 }
 
 bool Session::close() {
@@ -615,7 +646,7 @@ bool Session::close() {
 
   reader_.giveUp();
   opening_.clear();
-  say("the scene stays as it is");
+  if (hasScene_) say("the scene stays as it is");
   return true;
 }
 
@@ -631,7 +662,8 @@ void Session::showReadScene() {
     restSeconds_ = 0;
   } catch (const std::exception& error) {
     opening_.clear();
-    fail(error.what());
+    // A program that cannot read its first scene ends as any other command does.
+    fail(error.what(), hasScene_ ? ExitStatus::checkFailed : failureOf(error).status);
   }
 }
 
@@ -658,7 +690,7 @@ void Session::readAgain(const std::string& animation) {
   const bool isEdited =
       edited.settings != readSettings_ || edited.givenSky != options_.common.load.sky;
   load({state_.sceneName, edited.settings, animation,
-        isEdited ? std::optional(edited.givenSky) : std::nullopt});
+        isEdited ? std::optional(edited.givenSky) : std::nullopt, state_.options});
 }
 
 void Session::setTime(double seconds) {
@@ -699,39 +731,26 @@ void Session::takeScene(bool elsewhere) {
 
   // Edits do not outlive a scene, but the user's options do.
   state_.edited = *state_.shown.edited;
-  if (elsewhere || state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
-  subject_ = subjectOf(scene());
   takeOptions(last->scene, elsewhere);
-
-  // A scene that was read again keeps the camera and the time.
-  if (!elsewhere) {
-    past_.back() = present();
-    if (scene().cameraPath.empty()) pathTime_.reset();
-    const Timeline before = state_.timeline;
-    Timeline& timeline = state_.timeline;
-    timeline = timelineOf(scene(), {std::nullopt, state_.scene->load.instant.animation});
-    // Another animation begins at its start.
-    const bool goesOn = timeline.animation == before.animation;
-    timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;
-    timeline.playing = timeline.there && before.playing;
-    say("the scene was read again");
+  if (elsewhere) {
+    enterScene(comingName_, !std::exchange(hasScene_, true));
+    say("opened " + state_.sceneName);
     return;
   }
 
-  // Another scene begins at its first camera and at its own time.
-  watch(comingName_);
-  forgetRays();
-  savedSettings_ = readSettings_ = state_.edited.settings;
-  past_ = {present()};
-
-  control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
-  show(control_.camera());
-  pathTime_.reset();
-  state_.followed = 0;
-
-  state_.timeline = timelineOf(scene(), {});
-  restSeconds_ = 0;
-  say("opened " + state_.sceneName);
+  // A scene that was read again keeps the camera and the time.
+  if (state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
+  subject_ = subjectOf(scene());
+  past_.back() = present();
+  if (scene().cameraPath.empty()) pathTime_.reset();
+  const Timeline before = state_.timeline;
+  Timeline& timeline = state_.timeline;
+  timeline = timelineOf(scene(), {std::nullopt, state_.scene->load.instant.animation});
+  // Another animation begins at its start.
+  const bool goesOn = timeline.animation == before.animation;
+  timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;
+  timeline.playing = timeline.there && before.playing;
+  say("the scene was read again");
 }
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
@@ -747,7 +766,7 @@ void Session::fitView() {
 
 std::string Session::command() const {
   const TracedFrame& shown = state_.shown;
-  if (!shown.scene) return "";
+  if (!showsScene()) return "";
   if (shown.scene->isMade) return "# The scene was made by a program: no command renders it.";
 
   const std::lock_guard lock(shown.scene->moving);
@@ -869,7 +888,7 @@ void Session::jump(const Camera& camera) {
 }
 
 void Session::pick(double x, double y) {
-  if (!state_.shown.scene) return;
+  if (!showsScene()) return;
 
   RayQuery query;
   query.picture.camera = state_.shown.request.camera;
@@ -895,7 +914,12 @@ void Session::openShipped(const std::string& name) {
 
 void Session::open(const std::string& name) {
   opening_ = name;
-  load({name, {}, {}, {}});  // settings belong to the scene that has them
+  if (hasScene_) {
+    load({.name = name, .options = state_.options});  // settings belong to the scene that has them
+  } else {
+    const LoadOptions& given = options_.common.load;
+    load({.name = name, .settings = given.settings, .animation = given.instant.animation});
+  }
 }
 
 }  // namespace whit::view

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/machine_limits.h"
 #include "core/stopwatch.h"
 #include "scene/motion.h"
@@ -26,8 +27,7 @@ namespace whit::view {
 // The options that the command lines of both faces have in common.
 struct ViewOptions {
   cli::CommonOptions common;
-  std::string scene;          // as on the command line
-  bool choosesScene = false;  // there is none, and a shipped one may be opened
+  std::string scene;  // as on the command line
   DebugView view = DebugView::none;
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
@@ -67,6 +67,9 @@ struct Timeline {
   bool step(double later);
   std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
 };
+
+// Returns the size that a scene has by itself.
+inline ImageSize sizeOf(const Scene& scene) { return {scene.width, scene.height}; }
 
 // Returns the names of the shipped scenes, which are chosen from where no scene is named.
 std::vector<std::string> shippedNames();
@@ -111,9 +114,10 @@ struct ViewState {
   Selection selected;
   int selections = 0;  // number of clicks that have selected something
 
-  std::string message;  // empty when its time is over
-  std::string error;    // stays until it is dismissed or a scene is read
-  int errors = 0;       // number of errors so far
+  std::string message;                          // empty when its time is over
+  std::string error;                            // stays until it is dismissed or a scene is read
+  int errors = 0;                               // number of errors so far
+  ExitStatus status = ExitStatus::checkFailed;  // of a program that ends with the last error
 };
 
 // "1/4, 16 samples, 30 frames/s": what the picture has, and how often it changes.
@@ -124,6 +128,7 @@ std::string aboutText(const TracedFrame& frame);
 class Session {
  public:
   // `onChange` is called on another thread whenever a frame, a scene or an error is to be fetched.
+  // Without `scene` the session shows an empty one until another is opened.
   Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
           std::function<void()> onChange);
   Session(const Session&) = delete;
@@ -135,11 +140,12 @@ class Session {
   // Does what the user asks for, as a message or in lines. Errors are shown.
   void act(const Message& message);
   void act(const std::string& lines);
-  void fail(const std::string& error);
+  void fail(const std::string& error, ExitStatus status = ExitStatus::checkFailed);
   void say(const std::string& message, double seconds = kMessageSeconds);
   // The message, what is being read or traced, and why the picture is black; empty: nothing.
   std::string notice() const;
-  bool isReading() const { return reader_.busy(); }
+  // A scene is being read, or was read and no frame shows it yet.
+  bool isReading() const { return reader_.busy() || coming_; }
   bool waitsForReader() const { return reader_.holds(); }  // at its end
   // Closes the error, or else gives up what is read; the scene stays as it is. Returns false if
   // there is neither.
@@ -170,10 +176,13 @@ class Session {
   std::string command() const;
 
   // True until a scene is open, in a session that began without one.
-  bool choosesScene() const { return options_.choosesScene && state_.sceneName.empty(); }
+  bool choosesScene() const { return !hasScene_; }
+  // Returns whether there is a picture of an open scene.
+  bool showsScene() const { return hasScene_ && state_.shown.scene; }
   // Opens a shipped scene if none is open. This is the only file that users of the page can read.
   void openShipped(const std::string& name);
   // These are for users who may read and write files here.
+  // The first scene is opened with all options of the command line.
   void open(const std::string& name);
   // Adds settings; `edited` is the scene with them.
   void edit(const std::vector<std::string>& settings, const EditedScene& edited);
@@ -191,6 +200,8 @@ class Session {
     bool operator==(const Past&) const = default;
   };
 
+  Session(const ViewOptions& options, bool hasScene, const std::shared_ptr<OpenScene>& scene,
+          std::function<void()> onChange);
   void drag(Drag& sum, const Message& message);
   void hold(const Message& message);
   CameraMotion takeMotion();
@@ -241,8 +252,10 @@ class Session {
   void takeOptions(const Scene& last, bool elsewhere);
   bool followScene();
   void takeScene(bool elsewhere);
+  void enterScene(const std::string& name, bool isFirst);
 
   const ViewOptions& options_;
+  bool hasScene_;  // false: the empty scene is shown
   ViewState state_;
   SceneReader reader_;
   RenderThread thread_;

@@ -23,15 +23,9 @@ namespace {
 
 constexpr std::uint64_t kSettingsBytesLimit = 1 << 16;
 
-void clearCamera(RenderOptions& options) {
-  options.camera.clear();
-  forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
-}
-
 // Sets the options to the scene's camera that equals this one, or to the first that the options can
 // turn into it, and to the members that differ.
 void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
-  clearCamera(options);
   const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
   const auto canBecome = [&](Camera known) {
     forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
@@ -225,7 +219,6 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   const bool leavesFolder = movePaths(root, path.parent_path(), ".");
   const cli::WriteScope scope;
   writeTextFile(file, root.dump(2) + "\n");
-  clearCamera(options);
   resetOwnSize(load, scene, options);
   return {file, commandWith(renderOf(file, saved), options, stated) +
                     (leavesFolder ? " --allow-outside" : "")};

@@ -11,8 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -373,6 +377,43 @@ ConvertedModel convertByAssimp(const std::string&, const std::string&, std::uint
 
 #endif
 
+namespace {
+
+// True if a face of an OFF file has numbers behind its corners, which are a color. The library
+// reads those of vertices alone.
+bool hasColoredFaces(const std::string& bytes) {
+  std::istringstream text(bytes);
+  std::size_t vertices = 0, faces = 0;
+  bool isHeaderRead = false;
+
+  for (std::string line; std::getline(text, line);) {
+    line.erase(std::min(line.find('#'), line.size()));
+    std::istringstream words(line);
+    const std::vector<std::string> all(std::istream_iterator<std::string>(words), {});
+    const bool isKeyword = !isHeaderRead && !all.empty() && all[0].ends_with("OFF");
+    if (all.empty() || (isKeyword && all.size() == 1)) continue;
+
+    const std::size_t first = isKeyword ? 1 : 0;
+    const auto number = [&](std::size_t i) {
+      return i < all.size() ? std::strtoull(all[i].c_str(), nullptr, 10) : 0;
+    };
+    if (!isHeaderRead) {
+      vertices = number(first);
+      faces = number(first + 1);
+      isHeaderRead = true;
+    } else if (vertices > 0) {
+      --vertices;
+    } else if (faces-- == 0) {
+      break;
+    } else if (all.size() > number(0) + 1) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string file = source.path.string();
   const std::string bytes = readFile(source.path, source.budget.left() / 2);
@@ -395,6 +436,9 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
       {kIndexMended, "vertex index out of range replaced by the last vertex"}};
   for (const auto& [bit, text] : kNotes) {
     if ((model.notes & bit) != 0) source.warnings.add(text, file);
+  }
+  if (extensionOf(source.path) == ".off" && hasColoredFaces(bytes)) {
+    source.warnings.add("colors of faces left out", file);
   }
   source.warnings.add("face with a corner that is not finite or not there left out", file,
                       model.badFaces);

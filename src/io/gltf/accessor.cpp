@@ -54,15 +54,15 @@ const char* typeOf(std::size_t components) {
 }
 
 // Equally spaced elements that are known to lie within their buffer view.
-struct Run {
+struct StridedElements {
   const std::uint8_t* first = nullptr;
   std::uint64_t stride = 0;
   const std::uint8_t* at(std::uint64_t i) const { return first + i * stride; }
 };
 
 // Elements of the buffer view that `source`, an accessor or a part of a sparse one, refers to.
-Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool strided,
-                   std::uint64_t elementBytes, std::uint64_t count) {
+StridedElements elementsWithin(const GltfDocument& document, const JsonValue& source, bool strided,
+                               std::uint64_t elementBytes, std::uint64_t count) {
   const GltfBufferView view = document.view(source.need("bufferView"));
   const std::uint64_t stride = strided && view.stride > 0 ? view.stride : elementBytes;
   const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].wholeOr(0);
@@ -118,19 +118,20 @@ class AccessorReader {
     // A sparse accessor lists the indices and values of the elements that differ (section 3.6.2.3).
     const JsonValue sparse = accessor_["sparse"];
     if (!sparse.exists()) return all;
-    const JsonValue indices = sparse.need("indices");
+    const JsonValue replaced = sparse.need("indices");
     const std::uint64_t count =
         sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
 
-    const ComponentType type = componentTypeOf(indices.need("componentType"), true);
-    const Run which = elementsWithin(document_, indices, false, type.bytes, count);
-    const Run values = elementsWithin(document_, sparse.need("values"), false, bytes_, count);
+    const ComponentType type = componentTypeOf(replaced.need("componentType"), true);
+    const StridedElements which = elementsWithin(document_, replaced, false, type.bytes, count);
+    const StridedElements values =
+        elementsWithin(document_, sparse.need("values"), false, bytes_, count);
 
-    for (std::uint64_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       const std::uint32_t index = type.index(which.at(i));
       if (index >= count_) {
-        indices.fail(concat("indices below the accessor's count of ", count_),
-                     std::to_string(index));
+        replaced.fail(concat("indices below the accessor's count of ", count_),
+                      std::to_string(index));
       }
       set(&all[index * perElement], values.at(i));
     }
@@ -148,7 +149,7 @@ class AccessorReader {
   ComponentType component_;
   std::uint64_t bytes_, count_;  // bytes of an element
   bool normalized_;
-  Run dense_;
+  StridedElements dense_;
 };
 
 template <typename Element>

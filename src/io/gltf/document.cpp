@@ -16,16 +16,9 @@ namespace whit {
 
 namespace {
 
-// Returns a number below 0 for a letter that is no digit.
-int base64Value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  return c == '/' ? 63 : -1;
-}
-
 std::string base64Decoded(std::string_view digits, const std::string& where) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   while (digits.ends_with('=')) digits.remove_suffix(1);
 
   std::string bytes;
@@ -35,8 +28,8 @@ std::string base64Decoded(std::string_view digits, const std::string& where) {
   std::uint32_t held = 0;
   int bits = 0;
   for (const char c : digits) {
-    const int value = base64Value(c);
-    if (value < 0) {
+    const std::size_t value = kDigits.find(c);
+    if (value == std::string_view::npos) {
       throwBadScene(where, "expected base64, found a letter that is none of its digits");
     }
     held = held << 6 | static_cast<std::uint32_t>(value);
@@ -134,7 +127,7 @@ Json parseGltf(const std::string& bytes, const std::string& name, MemoryBudget& 
   // Each value follows a separator, so that their number limits the memory of the parsed text.
   const auto values =
       std::ranges::count_if(text, [](char c) { return c == ',' || c == '[' || c == '{'; });
-  budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);
+  budget.charge(values, kBytesPerJsonValue, name);
   return parseJson(std::string(text), name);
 }
 

@@ -158,6 +158,18 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   return result;
 }
 
+// Masks of foliage have soft edges, which take less than half of their texels, and codes near 0 and
+// 1 after JPEG. With more gray texels a map means how much of the surface is there.
+bool isMostlyGray(const RawImage& raw, std::size_t channel) {
+  constexpr float kNoise = 16.0f / 255;
+  std::size_t gray = 0;
+  for (const auto i : indices(raw.pixels())) {
+    const float value = valuesAt(raw, i)[channel];
+    if (value > kNoise && value < 1 - kNoise) ++gray;
+  }
+  return gray > raw.pixels() / 2;
+}
+
 // Tests all but the alpha map, whose need follows from the image.
 bool wantsBaked(const GltfMaterial& m, GltfBakedMap map) {
   const bool colored = m.baseMap.exists();
@@ -188,6 +200,7 @@ std::optional<Texture> alphaOfImage(const GltfMaterial& m, const RawImage& raw,
     }
   }
 
+  means.maskBlends = m.maskMayBlend && isMostlyGray(raw, 3);
   const MemoryHold held = holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t), limits);
   Texture texture = makeAlphaTexture(m.name, raw);
   setSampler(m.baseMap, texture);
@@ -443,9 +456,15 @@ RawImage repeated(const RawImage& raw, const RepeatedRow& columns, const Repeate
   return all;
 }
 
-Texture maskTexture(const GltfMaterial& material, const RawImage& raw) {
-  return hasTranslucentAlpha(raw) ? makeAlphaTexture(material.name, raw)
-                                  : makeTexture(material.name, raw, TexelFormat::data);
+Texture maskTexture(const GltfMaterial& material, const RawImage& raw, GltfMeans& means) {
+  const bool byAlpha = hasTranslucentAlpha(raw);
+  means.maskBlends = isMostlyGray(raw, byAlpha ? 3 : 0);
+  return byAlpha ? makeAlphaTexture(material.name, raw)
+                 : makeTexture(material.name, raw, TexelFormat::data);
+}
+
+bool mayBlend(const GltfMaterial& m) {
+  return m.alphaMode == GltfMaterial::Alpha::blend || m.maskMayBlend;
 }
 
 // The material whose maps are requested, and what they are made from. Tasks that make textures
@@ -514,7 +533,7 @@ void requestBaked(const MapRequest& request, Material& slots) {
   if (wantsBaked(m, kGltfTransmission)) slots.transmissionMap = baked[kGltfTransmission];
 
   if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
-  if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
+  if (mayBlend(m)) slots.coverageMap = slots.alphaMap;
 }
 
 // Where there are no maps, meshes keep the alpha of their vertices as the coordinate u, which a
@@ -551,7 +570,12 @@ void requestSingleMaps(const MapRequest& request, Material& slots) {
 
   if (m.normalMap.exists()) slots.normalMap = single(m.normalMap, normalTexture);
   if (m.occlusionMap.exists()) slots.occlusionMap = single(m.occlusionMap, occlusionTexture);
-  if (m.maskMap.exists()) slots.alphaMap = single(m.maskMap, maskTexture);
+  if (m.maskMap.exists()) {
+    slots.alphaMap = slots.coverageMap =
+        single(m.maskMap, [means = request.means](const auto& m, const auto& raw) {
+          return std::optional(maskTexture(m, raw, *means));
+        });
+  }
 
   if (m.variesRoughness()) {
     slots.roughnessMap =
@@ -655,8 +679,12 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
   });
 
   // Factors follow from the means, which are known when the images have been decoded.
-  const auto renewed = [shading = std::move(shading), given, means = maps.means](Material& m) {
+  const bool maskMayBlend = source.maskMayBlend;
+  const auto renewed = [shading = std::move(shading), given, means = maps.means,
+                        maskMayBlend](Material& m) {
     renew(m, shading(*means), given);
+    const bool isCutOnly = maskMayBlend && !means->maskBlends;
+    if (isCutOnly && !given.contains("coverageMap")) m.coverageMap = kNoTexture;
   };
 
   return {std::move(material), renewed};

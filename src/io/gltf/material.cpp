@@ -1,6 +1,5 @@
 #include "io/gltf/material.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -176,6 +175,7 @@ class GltfMaterialReader {
     warnIf(volume["thicknessTexture"].exists(),
            "thickness of a volume by a texture left out: what the mesh encloses counts");
     m_.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
+    warnOfSpecularSolid();
 
     // Without a distance nothing is absorbed.
     const double distance = volume["attenuationDistance"].numberOr(0);
@@ -188,6 +188,18 @@ class GltfMaterialReader {
     }
   }
 
+  // The interface of a solid reflects and transmits by its index of refraction alone. The factors
+  // of KHR_materials_specular scale the highlights of lights.
+  void warnOfSpecularSolid() const {
+    const JsonValue specular = extensions_["KHR_materials_specular"];
+    const Rgb color = colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
+    const bool isScaled = m_.f90 < 1 || !(color == Rgb(1.0f)) || m_.specularMap.exists() ||
+                          m_.specularColorMap.exists();
+    warnIf(isScaled && m_.transmission > 0 && m_.thickness > 0,
+           "KHR_materials_specular of a material with a volume left out, but for the highlights of "
+           "lights: it reflects by its ior alone");
+  }
+
   void readClearcoat() {
     const JsonValue coat = extensions_["KHR_materials_clearcoat"];
     m_.clearcoat = readNumber(coat["clearcoatFactor"], 0);
@@ -195,6 +207,9 @@ class GltfMaterialReader {
     m_.clearcoatMap = texture(coat["clearcoatTexture"]);
     m_.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
     warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+    // A coat is a mirror, and mirrors of other materials, such as metals, dim no emission.
+    warnIf(m_.clearcoat > 0 && maxComponent(m_.emission) > 0,
+           "emission below a clearcoat not dimmed by it: too bright by what the coat reflects");
   }
 
   const GltfDocument& document_;
@@ -231,6 +246,11 @@ void setCoverage(const GltfMaterial& g, const GltfMeans& means, Material& m) {
     m.coverage = std::min(g.alpha * means.alpha, 1.0f);
     m.thin = m.thin || means.alphaByMap;
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
+  }
+
+  if (means.maskBlends) {
+    m.thin = true;
+    m.alphaCutoff = kClearCoverage;
   }
 
   // A mask that cuts everything, with or without a map.

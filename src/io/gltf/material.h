@@ -63,7 +63,7 @@ struct GltfMaterial {
   bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, occlusionMap;
   GltfTexture roughnessMap;                   // glTF has it in metallicRoughnessMap, MTL apart
-  GltfTexture maskMap;                        // MTL only: cuts in place of the base color's alpha
+  GltfTexture maskMap;                        // MTL only: counts in place of the base color's alpha
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1, occlusionStrength = 1;
@@ -72,6 +72,7 @@ struct GltfMaterial {
   bool alphaByVertex = false;
   bool mirrorIsApart = false;        // set for MTL: no reflectance at normal incidence
   bool normalsMayBeHeights = false;  // set for MTL: a gray normalMap holds heights
+  bool maskMayBlend = false;         // set for MTL: a mask that is mostly gray is coverage
 
   // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
   // first that differ from them (equal where none do).
@@ -131,6 +132,7 @@ struct GltfMeans {
   float clearcoat = 1, clearcoatRoughness = 1;
   float alpha = 1;          // alpha of a texture that blends and is the same everywhere
   bool alphaByMap = false;  // its texels differ and are multiplied with the factor
+  bool maskBlends = false;  // the mask is mostly gray (maskMayBlend)
 };
 
 // How often an image repeats where the coordinates that look it up grow by 1, and where it begins.

@@ -42,6 +42,12 @@ void readTargets(const GltfDocument& document, const JsonValue& targets, Deforma
   for (const auto i : indices(targets)) {
     const bool weighs = i < to.weights.size() && to.weights[i] != 0;
     if (!weighs && !to.movingWeights) continue;
+    for (const auto& [name, accessor] : targets[i].members()) {
+      if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
+      document.warnings().add(
+          "colors or texture coordinates of a morph target left out: they stay as they are",
+          targets.where());
+    }
     to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
                      vectorsOf(document, targets[i]["NORMAL"], to.normals.size())};
   }
@@ -86,7 +92,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
       to.influences.resize(to.firstInfluence.back());
       to.influences.push_back({static_cast<std::uint32_t>(own), 1});
     }
-    to.firstInfluence.push_back(static_cast<std::uint32_t>(to.influences.size()));
+    to.firstInfluence.push_back(size32(to.influences));
   }
 }
 
@@ -361,36 +367,38 @@ class GltfModel : public Model {
     return all;
   }
 
+  std::size_t viewSize() const override { return stage_.cameras.size() + stage_.lights.size(); }
+
   // The picture takes the first camera's aspect ratio.
-  void addView(SceneDescription& scene) override {
+  void addView(SceneDescription& scene, const Affine& toWorld) override {
     constexpr double kNarrowest = 0.1, kWidest = 10;
-    if (stage_.aspect > 0) {
+    if (stage_.aspect > 0 && scene.cameras.empty()) {
       const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
       scene.width = static_cast<int>(std::lround(aspect * scene.height));
     }
 
-    const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
+    const auto first = size32(scene.motion.rig);
     for (RigNode node : stage_.movers) {
-      putInParent(node.parent, node.toParent, first, scene);
+      putInParent(node.parent, node.toParent, first, toWorld, scene);
       scene.motion.rig.push_back(std::move(node));
     }
 
     for (auto [camera, map, mover] : stage_.cameras) {
-      putInParent(mover, map, first, scene);
+      putInParent(mover, map, first, toWorld, scene);
       camera.eye = Vec3f(map.p);
       // Far enough for the direction to survive the rounding of eye and at.
       camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
       camera.up = Vec3f(normalized(map.y));
-      const auto number = static_cast<std::uint32_t>(scene.cameras.size());
+      const auto number = size32(scene.cameras);
       if (mover != kNoNode) scene.motion.cameras.push_back({number, mover, camera});
       scene.cameras.push_back(camera);
     }
 
     for (auto [light, map, mover] : stage_.lights) {
-      putInParent(mover, map, first, scene);
+      putInParent(mover, map, first, toWorld, scene);
       light.position = Vec3f(map.p);
       light.direction = Vec3f(-normalized(map.z));
-      const auto number = static_cast<std::uint32_t>(scene.lights.size());
+      const auto number = size32(scene.lights);
       if (mover != kNoNode) {
         scene.motion.lights.push_back({number, mover, light.position, light.direction});
       }
@@ -399,11 +407,12 @@ class GltfModel : public Model {
   }
 
  private:
-  // The nodes that move are numbered from `first` on. What none of them carries is moved to the
-  // origin here.
+  // The nodes that move are numbered from `first` on. What none of them carries is placed in the
+  // scene and moved to its origin here.
   static void putInParent(std::uint32_t& parent, Affine& toParent, std::uint32_t first,
-                          const SceneDescription& scene) {
+                          const Affine& toWorld, const SceneDescription& scene) {
     if (parent == kNoNode) {
+      toParent = toWorld * toParent;
       toParent.p = toParent.p - scene.origin;
     } else {
       parent += first;

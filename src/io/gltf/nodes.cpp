@@ -72,8 +72,7 @@ std::vector<double> readTimes(const GltfDocument& document, const JsonValue& inp
   if (times.empty()) input.fail("at least one time", "none");
   for (const auto i : indices(times)) {
     if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
-    input.fail("finite times that increase",
-               formatted("%g at index %zu", static_cast<double>(times[i]), i));
+    input.fail("finite times that increase", formatted("%g at index %zu", double{times[i]}, i));
   }
   return {times.begin(), times.end()};
 }
@@ -243,7 +242,7 @@ class TreeReader {
     if (own.motion) {
       document_.budget().charge(1, 2 * sizeof(RigNode), node.where());
       stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
-      mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
+      mover = size32(stage_.movers) - 1;
     }
     if (!isUsable(map)) {
       warn("node that flattens space left out", index);
@@ -365,7 +364,7 @@ class TreeReader {
       document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
       RigNode node = nodeOf(*at);
       if (parents_[*at] != kTopmost) node.parent = places.at(parents_[*at]);
-      places[*at] = static_cast<std::uint32_t>(rig.size());
+      places[*at] = size32(rig);
       rig.push_back(std::move(node));
     }
     return places.at(index);

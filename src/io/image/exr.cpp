@@ -471,6 +471,18 @@ void writeTo(Imf::OStream& out, const Image& image, const Imf::Header& header, E
   }
 }
 
+// Colors mean Rec. 709 unless an attribute says otherwise.
+bool hasOtherPrimaries(const Imf::Header& header) {
+  constexpr float kTolerance = 2e-3f;  // files round the numbers to three digits
+  if (!Imf::hasChromaticities(header)) return false;
+  const Imf::Chromaticities found = Imf::chromaticities(header), rec709;
+  const auto differ = [](const Imath::V2f& a, const Imath::V2f& b) {
+    return !a.equalWithAbsError(b, kTolerance);
+  };
+  return differ(found.red, rec709.red) || differ(found.green, rec709.green) ||
+         differ(found.blue, rec709.blue) || differ(found.white, rec709.white);
+}
+
 // Returns the alpha of an image in another format, if it has some.
 std::vector<ImageLayer> alphaLayer(const std::string& path, const ImageLimits& limits) {
   Warnings unused;
@@ -508,8 +520,10 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
     } else {
       image.raw.values = file.read<float>(kept, channels, limits);
     }
+
     const Imf::Header& header = file.header();
     image.raw.isCube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
+    if (hasOtherPrimaries(header)) image.raw.leftOut = kOtherPrimaries;
     return image;
   });
 }

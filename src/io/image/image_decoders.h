@@ -28,6 +28,10 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 using ImageDecoder = RawImage(const std::string& path, FileBytes file, const ImageLimits& limits);
 ImageDecoder decodePng, decodeJpeg, decodeWebp, decodeBmp, decodeHdr, decodeTga;
 
+// A warning of images with other primaries than Rec. 709, whose numbers are taken as they are.
+inline constexpr char kOtherPrimaries[] =
+    "primaries of an image left out: its values are taken as those of Rec. 709";
+
 // The first part of an OpenEXR file; values keep their bits.
 struct ExrImage {
   int width = 0, height = 0;  // of the display window

@@ -76,9 +76,10 @@ RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   return decodeBytes(path, asBytes(file), limits);
 }
 
-void sanitise(const std::string& path, std::vector<float>& values, Warnings& warnings) {
+void sanitise(const std::string& path, RawImage& raw, Warnings& warnings) {
+  if (!raw.leftOut.empty()) warnings.add(raw.leftOut, path);
   std::uint64_t nan = 0, negative = 0, infinite = 0;
-  for (float& value : values) {
+  for (float& value : raw.values) {
     if (std::isnan(value)) {
       ++nan;
       value = 0;
@@ -139,14 +140,14 @@ RawImage startImage(const std::string& path, std::int64_t width, std::int64_t he
 
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
   RawImage raw = isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
-  sanitise(path, raw.values, warnings);
+  sanitise(path, raw, warnings);
   return raw;
 }
 
 RawImage decodeRawImage(const std::string& name, FileBytes file, const ImageLimits& limits,
                         Warnings& warnings) {
   RawImage raw = decodeBytes(name, file, limits);
-  sanitise(name, raw.values, warnings);
+  sanitise(name, raw, warnings);
   return raw;
 }
 

@@ -34,6 +34,7 @@ struct RawImage {
   bool isCube = false;  // six square faces from the top, as OpenEXR's envmap "cube" has them
   std::vector<std::uint8_t> codes;  // when !linear
   std::vector<float> values;  // when linear; sanitised: NaN and negatives 0, inf 65504, counted
+  std::string leftOut;        // a warning of what decoders leave out, or empty
   MemoryHold held;            // the memory of codes and values
 
   std::size_t pixels() const { return cellsOf(width, height); }

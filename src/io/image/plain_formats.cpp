@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/index.h"
 #include "core/text.h"
@@ -320,6 +322,64 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   readOldRuns(bytes, row);
 }
 
+// What the header of a Radiance file says of the values.
+struct RadianceHeader {
+  std::array<double, 3> divisor{1, 1, 1};  // the product of all EXPOSURE and COLORCORR
+  bool hasOtherPrimaries = false;
+};
+
+// Reads the numbers behind the "=" of a line, of which there may be fewer than asked for.
+std::vector<double> numbersOf(const std::string& line, std::size_t most) {
+  std::vector<double> numbers;
+  const char* at = line.c_str() + line.find('=') + 1;
+  while (numbers.size() < most) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end == at) break;
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+// Those of Rec. 709, and Radiance's own, which files without the line have as well.
+bool areUsualPrimaries(const std::vector<double>& found) {
+  constexpr double kTolerance = 2e-3;
+  constexpr std::array<double, 8> kUsual[] = {{{.64, .33, .30, .60, .15, .06, .3127, .329}},
+                                              {{.64, .33, .29, .60, .15, .06, 1 / 3., 1 / 3.}}};
+  return std::ranges::any_of(kUsual, [&](const auto& usual) {
+    return std::ranges::equal(found, usual,
+                              [](double a, double b) { return std::abs(a - b) < kTolerance; });
+  });
+}
+
+// An empty line ends the header.
+RadianceHeader readHeader(ImageBytes& bytes) {
+  constexpr std::string_view kFormat = "FORMAT=", kKnown = "32-bit_rle_rgbe";
+  RadianceHeader header;
+  for (std::string text; !(text = nextText(bytes)).empty();) {
+    if (text.starts_with(kFormat) && text.substr(kFormat.size()) != kKnown) {
+      bytes.fail("expected FORMAT=32-bit_rle_rgbe, found " + excerpt(text));
+    }
+    if (text.starts_with("PRIMARIES=")) {
+      header.hasOtherPrimaries = !areUsualPrimaries(numbersOf(text, 8));
+    }
+
+    const bool isExposure = text.starts_with("EXPOSURE=");
+    if (!isExposure && !text.starts_with("COLORCORR=")) continue;
+    const std::size_t count = isExposure ? 1 : 3;
+    const std::vector<double> factors = numbersOf(text, count);
+    for (std::size_t c = 0; c < 3 && factors.size() == count; ++c) {
+      header.divisor[c] *= factors[c % count];
+    }
+    const auto isUsable = [](double x) { return x > 1e-30 && x < 1e30; };
+    if (factors.size() != count || !std::ranges::all_of(header.divisor, isUsable)) {
+      bytes.fail("expected a factor above 0 for each channel, found " + excerpt(text));
+    }
+  }
+  return header;
+}
+
 }  // namespace
 
 RawImage decodeBmp(const std::string& path, FileBytes file, const ImageLimits& limits) {
@@ -331,15 +391,8 @@ RawImage decodeTga(const std::string& path, FileBytes file, const ImageLimits& l
 }
 
 RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& limits) {
-  constexpr std::string_view kFormat = "FORMAT=", kKnown = "32-bit_rle_rgbe";
   ImageBytes bytes(path, file);
-
-  // An empty line ends the header.
-  for (std::string text; !(text = nextText(bytes)).empty();) {
-    if (text.starts_with(kFormat) && text.substr(kFormat.size()) != kKnown) {
-      bytes.fail("expected FORMAT=32-bit_rle_rgbe, found " + excerpt(text));
-    }
-  }
+  const RadianceHeader header = readHeader(bytes);
 
   // Only rows from the top and columns from the left are read.
   int columns = 0, rows = 0;
@@ -348,6 +401,7 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   }
 
   RawImage image = startImage(path, columns, rows, 3, true, limits);
+  if (header.hasOtherPrimaries) image.leftOut = kOtherPrimaries;
   const std::size_t width = image.width;
   const std::size_t height = image.height;
   bytes.need(height * sizeof(Rgbe));  // at least, before memory is taken
@@ -360,7 +414,8 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
       constexpr int kBias = 128 + 8;  // of the exponent, and of mantissas below 256
       const float scale = pixel[3] == 0 ? 0 : std::ldexp(1.0f, pixel[3] - kBias);
       for (const auto c : indices(3)) {
-        image.values.push_back(static_cast<float>(pixel[c]) * scale);
+        image.values.push_back(static_cast<float>(pixel[c]) * scale /
+                               static_cast<float>(header.divisor[c]));
       }
     }
   }

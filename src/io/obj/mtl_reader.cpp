@@ -244,7 +244,7 @@ class Interpreter {
     }
 
     const auto known = std::ranges::find(images_, image.path, &GltfImageSource::path);
-    texture.image = static_cast<std::size_t>(known - images_.begin());
+    texture.image = known - images_.begin();
     if (known == images_.end()) images_.push_back(std::move(image));
     texture.wrapU = texture.wrapV = map.clamp ? Wrap::clamp : Wrap::repeat;
     // u' = offset + scale u and v' = offset + scale v, with v pointing up.
@@ -264,6 +264,7 @@ class Interpreter {
     m.clearcoatMap = texture("map_pc");
     m.clearcoatRoughnessMap = texture("map_pcr");
     if (m.baseMap.exists() || m.maskMap.exists()) m.alphaMode = GltfMaterial::Alpha::mask;
+    m.maskMayBlend = m.alphaMode == GltfMaterial::Alpha::mask;
 
     m.normalMap = texture("norm");
     const char* normals = "norm";

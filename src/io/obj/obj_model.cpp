@@ -58,7 +58,9 @@ constexpr std::uint32_t kNoVertex = 0xffffffffu, kNoMaterial = 0xffffffffu;
 // Normals from here on belong to a smoothing group, others are those of the file, which has fewer.
 constexpr std::int32_t kFirstGroupNormal = 1 << 30;
 
-std::size_t placeOf(std::int32_t index) { return static_cast<std::size_t>(index); }
+bool isWithin(std::int32_t index, std::size_t count) {
+  return index >= 0 && static_cast<std::size_t>(index) < count;
+}
 
 class ObjReader {
  public:
@@ -73,8 +75,7 @@ class ObjReader {
     std::size_t begin = 0;
     for (std::size_t at = 0; (at = text_.find("mtl", at)) != std::string::npos;) {
       const std::size_t start = text_.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
-      number +=
-          static_cast<std::uint64_t>(std::count(text_.data() + begin, text_.data() + start, '\n'));
+      number += std::count(text_.data() + begin, text_.data() + start, '\n');
       begin = start;
       at = text_.find_first_of("\r\n", at);
       LineReader line(text_, file_, start, number);
@@ -95,8 +96,9 @@ class ObjReader {
   // The materials of the mesh are indices into `materials`; faces before the first usemtl have the
   // index after the last one.
   Mesh read() {
-    const auto count = static_cast<std::uint32_t>(materials.size());
+    const auto count = size32(materials);
     material_ = kNoMaterial;
+    facesWithoutUvs.assign(count + 1, 0);
     findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
     if (mesh_.triangles.empty()) {
@@ -118,6 +120,9 @@ class ObjReader {
 
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
+  // Numbers of faces with a corner without texture coordinates, by their index into `materials`;
+  // the last are those of no material.
+  std::vector<std::uint64_t> facesWithoutUvs;
   bool isColored = false;  // the first vertex has a color
   Vec3d origin;            // subtracted from all vertices, see originOf()
 
@@ -141,7 +146,7 @@ class ObjReader {
 
       for (; line.hasMore(); line.finishWord()) {
         const std::int32_t vertex = index(line, all.size());
-        if (vertex >= 0 && placeOf(vertex) < all.size()) box.add(all[placeOf(vertex)]);
+        if (isWithin(vertex, all.size())) box.add(all[vertex]);
       }
       const bool isNear = !box.empty() && length(box.center()) < box.diagonal();
       if (isNear) return;
@@ -178,7 +183,7 @@ class ObjReader {
     const std::string name(line.rest());
     if (name.empty()) return;
     if (keyword == "usemtl") {
-      const auto number = static_cast<std::uint32_t>(materials.size());
+      const auto number = size32(materials);
       const auto [known, isNew] = materialNumbers_.emplace(name, number);
       if (isNew) materials.push_back({name, line.place()});
       material_ = known->second;
@@ -213,7 +218,7 @@ class ObjReader {
     if (readNumbers(v.data(), 3) < 3) {
       throwBadScene(lines_.place(), "expected three numbers after \"vn\"");
     }
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    return Vec3f(Vec3d(v[0], v[1], v[2]));
   }
 
   void face() {
@@ -240,7 +245,7 @@ class ObjReader {
     }
 
     for (ObjCorner& c : corners_) {
-      if (c.position < 0 || placeOf(c.position) >= positions_.size()) {
+      if (!isWithin(c.position, positions_.size())) {
         warn("face with a vertex index out of range dropped");
         return;
       }
@@ -252,7 +257,7 @@ class ObjReader {
   }
 
   void require(std::int32_t& index, std::size_t count, const char* warning) {
-    if (index < 0 || static_cast<std::size_t>(index) < count) return;
+    if (index < 0 || isWithin(index, count)) return;
     warn(warning);
     index = kNoIndex;
   }
@@ -274,6 +279,9 @@ class ObjReader {
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
     if (lacksNormals && smoothing_ != 0) addToGroup();
     const bool isFlat = lacksNormals && smoothing_ == 0;
+    const bool lacksUvs =
+        std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.uv == kNoIndex; });
+    if (lacksUvs) ++facesWithoutUvs[std::min<std::size_t>(material_, facesWithoutUvs.size() - 1)];
     mesh_.hasFlatFaces |= isFlat;
     hasNormals_ |= !isFlat;
     points_.clear();
@@ -281,7 +289,7 @@ class ObjReader {
     triangles_.clear();
     for (ObjCorner corner : corners_) {
       if (isFlat) corner.normal = kNoIndex;
-      points_.emplace_back(positions_[placeOf(corner.position)]);
+      points_.emplace_back(positions_[corner.position]);
       vertices_.push_back(vertex(corner));
     }
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline");
@@ -295,7 +303,7 @@ class ObjReader {
   // them, which is as long as twice its area.
   void addToGroup() {
     const auto at = [&](std::size_t corner) {
-      return Vec3d(positions_[placeOf(corners_[corner % corners_.size()].position)]);
+      return Vec3d(positions_[corners_[corner % corners_.size()].position]);
     };
     Vec3d normal;
     for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
@@ -303,12 +311,12 @@ class ObjReader {
     }
 
     for (ObjCorner& corner : corners_) {
-      auto& groups = groupNormals_[placeOf(corner.position)];
+      auto& groups = groupNormals_[corner.position];
       budget_.charge(1, sizeof(Vec3d) + 8 * sizeof(void*), file_);
       const auto next = static_cast<std::int32_t>(groupSums_.size());
       const auto [known, isNew] = groups.emplace(smoothing_, next);
       if (isNew) groupSums_.emplace_back();
-      groupSums_[placeOf(known->second)] += normal;
+      groupSums_[known->second] += normal;
       corner.normal = kFirstGroupNormal + known->second;
     }
   }
@@ -317,7 +325,7 @@ class ObjReader {
     for (const auto i : indices(known_)) {
       const std::int32_t normal = known_[i].normal;
       if (normal < kFirstGroupNormal) continue;
-      mesh_.normals[i] = Vec3f(normalized(groupSums_[placeOf(normal - kFirstGroupNormal)], {}));
+      mesh_.normals[i] = Vec3f(normalized(groupSums_[normal - kFirstGroupNormal], {}));
     }
   }
 
@@ -337,7 +345,7 @@ class ObjReader {
 
   // Corners that agree in position, texture coordinates and normal share a vertex.
   std::uint32_t vertex(const ObjCorner& corner) {
-    const std::size_t position = placeOf(corner.position);
+    const std::size_t position = corner.position;
     if (newest_.size() <= position) newest_.resize(positions_.size(), kNoVertex);
     std::uint32_t& newest = newest_[position];
     // The search is short, so that files with many vertices at one position stay fast.
@@ -345,13 +353,13 @@ class ObjReader {
     for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = known_[v].older, --left) {
       if (known_[v].uv == corner.uv && known_[v].normal == corner.normal) return v;
     }
-    const auto number = static_cast<std::uint32_t>(known_.size());
+    const auto number = size32(known_);
     known_.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
     mesh_.positions.push_back(positions_[position]);
     const bool hasUv = corner.uv != kNoIndex;
     const bool hasNormal = corner.normal != kNoIndex && corner.normal < kFirstGroupNormal;
-    mesh_.uvs.push_back(hasUv ? uvs_[placeOf(corner.uv)] : Vec2f());
-    mesh_.normals.push_back(hasNormal ? normals_[placeOf(corner.normal)] : Vec3f());
+    mesh_.uvs.push_back(hasUv ? uvs_[corner.uv] : Vec2f());
+    mesh_.normals.push_back(hasNormal ? normals_[corner.normal] : Vec3f());
     if (position < colors_.size()) {
       mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
       mesh_.colors.back() = colors_[position];
@@ -440,6 +448,7 @@ class ObjModel : public MeshModel {
     if (reader_) {
       mesh_ = reader_->read();
       origin_ = reader_->origin;
+      warnOfMissingUvs();
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
@@ -449,6 +458,16 @@ class ObjModel : public MeshModel {
   }
 
  private:
+  void warnOfMissingUvs() const {
+    for (const auto i : indices(reader_->facesWithoutUvs)) {
+      const GltfMaterial& material = sources_[i].surface;
+      if (!material.isMapped() && !material.maskMap.exists()) continue;
+      source_.warnings.add(
+          "face without texture coordinates has the texel at (0, 0) of its material's textures",
+          file_ + ": " + excerpt(material.name), reader_->facesWithoutUvs[i]);
+    }
+  }
+
   // Applies the offsets and scales of maps. Materials whose maps have any get vertices of their
   // own, because the file's vertices are shared by materials.
   void mapCoordinates() {
@@ -459,7 +478,7 @@ class ObjModel : public MeshModel {
       const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
       if (coordinates == GltfMaterial::Coordinates()) continue;
       for (std::uint32_t& corner : mesh_.triangles[i]) {
-        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto next = size32(mesh_.positions);
         const auto [copy, isNew] = copies.emplace(std::pair(material, corner), next);
         if (isNew) copyVertex(corner, coordinates);
         corner = copy->second;

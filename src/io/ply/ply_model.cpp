@@ -329,7 +329,7 @@ class PlyReader {
     if (colors) mesh_.colors.resize(element.count);
     std::array<float, kComponents + 1> v{};
 
-    for (std::uint64_t i = 0; i < element.count; ++i) {
+    for (const auto i : indices(element.count)) {
       readElement(element, [&](const PlyProperty& property, double value) {
         const Component to = components[&property - element.properties.data()];
         v[to] = valueOf(property, to, value);
@@ -427,7 +427,7 @@ class PlyReader {
     for (const auto i : indices(numbers_)) {
       budget_.charge(1, 2 * sizeof(Vec3f) + sizeof(Vec2f) + sizeof(Rgb), file_);
       const std::uint32_t old = numbers_[i];
-      numbers_[i] = static_cast<std::uint32_t>(mesh_.positions.size());
+      numbers_[i] = size32(mesh_.positions);
       appendCopy(old, mesh_);
 
       if (hasFaceColors_) {

@@ -119,7 +119,7 @@ std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
   const auto found = std::ranges::find(names, key);
   if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + suggestion(key, names));
-  return static_cast<std::size_t>(found - names.begin());
+  return found - names.begin();
 }
 
 // The map that turns an axis up.
@@ -150,6 +150,7 @@ class ItemReader {
           "moved to the origin)",
           context_.scene.name);
     }
+    addViews(file);
   }
 
   void readModelAlone(JsonObject& file, const std::filesystem::path& path) {
@@ -164,10 +165,43 @@ class ItemReader {
                     origin.y, origin.z),
           context_.scene.name);
     }
-    model.addView(context_.scene);
+    model.addView(context_.scene, Affine());
   }
 
  private:
+  // A model of the list "scene" whose cameras and lights may be taken, and where it stands.
+  struct ViewedModel {
+    Model* model;
+    Affine toWorld;
+    std::string where;
+  };
+
+  // With "view" the scene takes the cameras and lights of its models. A picture whose size is
+  // stated keeps it. Otherwise a scene has its own, and those of models are left out.
+  void addViews(JsonObject& file) {
+    SceneDescription& scene = context_.scene;
+    const bool takesViews = file.has("view");
+    const int width = scene.width;
+    for (const ViewedModel& viewed : viewed_) {
+      if (takesViews) {
+        viewed.model->addView(scene, viewed.toWorld);
+      } else {
+        warnOfView(*viewed.model, viewed.where);
+      }
+    }
+
+    if (file.has("size")) scene.width = width;
+    std::vector<std::string> names = distinctNames(namesIn(scene.cameras));
+    for (const auto i : indices(names)) scene.cameras[i].name = std::move(names[i]);
+  }
+
+  void warnOfView(const Model& model, const std::string& where) {
+    context_.warnings.add(
+        "cameras and lights of a model left out: a scene states its own, or takes those of the "
+        "models in \"scene\", placed once and at rest, by \"view\": \"model\"",
+        where, model.viewSize());
+  }
+
   // Files of OBJ, PLY and OFF do not say which axis is up. In STL files it is z by custom.
   Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content) {
     const std::string format = extensionOf(path);
@@ -203,10 +237,12 @@ class ItemReader {
 
     JsonObject item(value);
     Body content;
+    Model* model = nullptr;
     if (const JsonValue shape = item.find("shape")) {
       content = readShape(item, shape);
-    } else if (const JsonValue model = item.find("model")) {
-      content = readModel(item, model);
+    } else if (const JsonValue path = item.find("model")) {
+      model = &modelAt(path);
+      content = contentOf(*model, path.text(), item);
     } else if (context_.parts && item.has("mesh")) {
       content = readMesh(item, item.find("mesh"));
     } else if (const JsonValue use = item.find("use")) {
@@ -223,6 +259,13 @@ class ItemReader {
     std::vector<Affine> placements = readPlacements(item);
     const SharedMotion motion = readMotion(item, context_.instant, context_.scene);
     item.finish();
+
+    const bool isOnceInScene = &to == &layout_.body(0) && placements.size() == 1 && !motion;
+    if (model && isOnceInScene) {
+      viewed_.push_back({model, placements[0], value.where()});
+    } else if (model) {
+      warnOfView(*model, value.where());
+    }
 
     // What moves is a body of its own, which its placement carries.
     if (motion && context_.instant.moves()) {
@@ -280,11 +323,10 @@ class ItemReader {
     return placed;
   }
 
-  Body readModel(JsonObject& item, const JsonValue& path) {
+  Model& modelAt(const JsonValue& path) {
     const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
     if (!isModelFile(file)) path.fail("a model (" + modelExtensions() + ")");
-    Model& model = context_.model(file, path.where());
-    return contentOf(model, file, item);
+    return context_.model(file, path.where());
   }
 
   // A body of its own, so that one that is placed several times is kept once.
@@ -378,6 +420,7 @@ class ItemReader {
   std::map<std::string, NamedObject> objects_;
   // Bodies of the meshes that a program hands over, by name and material.
   std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
+  std::vector<ViewedModel> viewed_;
   int depth_ = 0;  // depth of the item that is being read
 };
 

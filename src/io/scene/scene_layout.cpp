@@ -1,6 +1,7 @@
 #include "io/scene/scene_layout.h"
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "scene/origin.h"
 
@@ -36,7 +37,7 @@ BoxOf<Vec3d> boundsOfMesh(const Mesh& mesh) {
 
 std::uint32_t SceneLayout::add(const std::string& name) {
   bodies_.emplace_back().name = name;
-  return static_cast<std::uint32_t>(bodies_.size() - 1);
+  return size32(bodies_) - 1;
 }
 
 void SceneLayout::append(const Body& from, const std::vector<Affine>& placements, Body& to) {
@@ -121,16 +122,15 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
   for (Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
     Mesh mesh = take(placed, body.name);
-    scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                               toWorld * placed.toParent, at.rank + placed.at.rank, kNoNode,
-                               at.item + placed.at.item});
+    scene.instances.push_back({size32(scene.objects), toWorld * placed.toParent,
+                               at.rank + placed.at.rank, kNoNode, at.item + placed.at.item});
     scene.objects.push_back({mesh.name, {}});
     scene.objects.back().meshes.push_back(std::move(mesh));
   }
 }
 
 void SceneLayout::addObject(Body& body, SceneDescription& scene) {
-  body.object = static_cast<std::uint32_t>(scene.objects.size());
+  body.object = size32(scene.objects);
   BoxOf<Vec3d> box;
   const Placement* bent = nullptr;
   for (const Placement& placed : body.placements) {
@@ -178,7 +178,7 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     Standing ofChild = at;
     ofChild += child.at;
     if (child.motion) {
-      const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
+      const auto node = size32(scene.motion.rig);
       budget_.charge(1, sizeof(RigNode), "what moves");
       scene.motion.rig.push_back({mover, toChild, child.motion, child.mover});
       place(child, Affine(), node, ofChild, scene);

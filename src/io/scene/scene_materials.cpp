@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
@@ -122,7 +123,7 @@ std::uint32_t MaterialReader::find(const JsonValue& name) const {
 
 std::uint32_t MaterialReader::add(Material material) {
   context_.scene.materials.push_back(std::move(material));
-  return static_cast<std::uint32_t>(context_.scene.materials.size() - 1);
+  return size32(context_.scene.materials) - 1;
 }
 
 std::uint32_t MaterialReader::defaultMaterial() {

@@ -123,8 +123,7 @@ RawImage imageOf(const GivenImage& given, const std::string& where) {
   }
   if (given.channels < 1 || given.channels > 4) throwBadScene(where, "expected 1 to 4 channels");
 
-  const std::size_t count =
-      cellsOf(given.width, given.height) * static_cast<std::size_t>(given.channels);
+  const std::size_t count = cellsOf(given.width, given.height) * given.channels;
   if (std::max(given.codes.size(), given.values.size()) != count ||
       std::min(given.codes.size(), given.values.size()) != 0) {
     throwBadScene(where, "expected width * height * channels numbers, all codes or all values");

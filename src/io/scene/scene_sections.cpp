@@ -6,7 +6,6 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "make/studio_sky.h"
@@ -19,7 +18,7 @@ namespace {
 std::uint32_t addMover(const JsonObject& object, const Instant& instant, const SharedMotion& motion,
                        SceneDescription& scene) {
   scene.motion.rig.push_back({kNoNode, Affine(), motion, movableName(object, instant)});
-  return static_cast<std::uint32_t>(scene.motion.rig.size() - 1);
+  return size32(scene.motion.rig) - 1;
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {
@@ -217,7 +216,7 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
     Camera camera;
     camera.name = name;
     readCamera(object, camera);
-    const auto index = static_cast<std::uint32_t>(scene.cameras.size());
+    const auto index = size32(scene.cameras);
     if (const SharedMotion motion = readMotion(object, instant, scene)) {
       if (instant.moves()) {
         scene.motion.cameras.push_back({index, addMover(object, instant, motion, scene), camera});
@@ -267,8 +266,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
     light.name = object.find("name").textOr(concat("light ", scene.lights.size() + 1));
     light.pointer = value.pointer();
     readLight(object, light);
-    MovingLight moving{static_cast<std::uint32_t>(scene.lights.size()), kNoNode, light.position,
-                       light.direction};
+    MovingLight moving{size32(scene.lights), kNoNode, light.position, light.direction};
     if (const SharedMotion motion = readMotion(object, instant, scene)) {
       if (instant.moves()) {
         moving.node = addMover(object, instant, motion, scene);
@@ -360,7 +358,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
 
 Json describe(float x) {
   const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
-  return static_cast<float>(shortest) == x ? shortest : static_cast<double>(x);
+  return static_cast<float>(shortest) == x ? shortest : double{x};
 }
 
 Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }

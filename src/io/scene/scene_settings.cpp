@@ -4,7 +4,6 @@
 #include <charconv>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "bake/edit_scene.h"
