@@ -113,7 +113,9 @@ std::vector<std::string> keyNames() {
 }
 
 Display::Display() {
-  if (!glfwInit()) throwUsage("there is no display to open a window on" + glfwReason());
+  if (!glfwInit())
+    throwUsage("there is no display to open a window on" + glfwReason() +
+               "; whit serve SCENE shows it in a browser");
 }
 
 Display::~Display() { glfwTerminate(); }

@@ -111,7 +111,7 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
 void checkJob(const BenchJob& job) {
   requireJsonWritable(job.json);
   if (!job.csv.empty() && job.csv != "-") requireWritable(job.csv, {".csv"});
-  refuseIf(job.csv == "-" && job.json == "-", "--json - and --csv -: standard output takes one");
+  requireSeparateFiles({job.json, job.csv}, job.common, job.scenes);
   const Series& series = job.series();
   const bool compares = &series != &kOneRun;
   refuseIf(job.reference() && (job.floor || compares),

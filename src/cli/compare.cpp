@@ -27,9 +27,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kCompareUsage =
-    "whit compare SCENE [options]\n"
-    "       whit compare A B [options]";
+constexpr const char* kCompareUsage = "whit compare SCENE [options], or whit compare A B [options]";
 constexpr const char* kCompareSummary =
     "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two. Without "
     "--tolerance up to 5 % of the pixels may differ by 2 codes or more, and the energy by 2 %. Or "
@@ -367,8 +365,11 @@ int compareCommand(const Words& words) {
 
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
+  const bool ofPictures = job.subjects.size() == 2;
+  requireSeparateFiles({job.json, job.heatmap}, job.common, ofPictures ? Words() : job.subjects,
+                       ofPictures ? job.subjects : Words());
 
-  Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
+  Compared compared = ofPictures ? compareFiles(job) : compareModes(job);
   compared.numbers.difference =
       compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
   if (!job.colors) {

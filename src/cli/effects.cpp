@@ -85,8 +85,9 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   for (const auto i : indices(steps)) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
-    writeImage((std::filesystem::path(job.out) / pictureName(steps, i)).string(), runs[i]->film(),
-               {{"scene", name}, {"effects", "up to " + steps[i].added}});
+    const std::string file = std::filesystem::path(job.out) / pictureName(steps, i);
+    requireSeparateFiles({file}, job.common, job.scenes);
+    writeImage(file, runs[i]->film(), {{"scene", name}, {"effects", "up to " + steps[i].added}});
   }
   return steps;
 }

@@ -345,6 +345,7 @@ int explainCommand(const Words& words) {
   if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
+  requireSeparateFiles({job.svg, job.html, job.json}, job.common, job.scenes);
   auto progress = makeProgressBar(job.common);
   Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);

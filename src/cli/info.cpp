@@ -179,6 +179,7 @@ int infoCommand(const Words& words) {
   }
 
   requireJsonWritable(json);
+  requireSeparateFiles({json}, common, scenes);
   auto progress = makeProgressBar(common);
 
   CommonOptions loading = common;

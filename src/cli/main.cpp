@@ -148,7 +148,7 @@ int run(const Words& words) {
     return 0;
   }
 
-  if (words[0] == "--version") {
+  if (words[0] == "--version" || words[0] == "version" || words[0] == "-V") {
     std::printf("whit %s\n", WHIT_VERSION);
     const std::string leftOut = WHIT_LEFT_OUT;
     if (!leftOut.empty()) std::printf("Left out of this build: %s\n", leftOut.c_str());

@@ -30,8 +30,10 @@ int mergeCommand(const Words& words) {
 
   // The first file is written, and the others are read.
   requireWritable(files[0], {".exr"});
+  const Words parts(files.begin() + 1, files.end());
+  requireSeparateFiles({files[0]}, common, {}, parts);
   Warnings warnings(common.render.strict);
-  const MergedImage merged = mergeImages({files.begin() + 1, files.end()}, ImageLimits(), warnings);
+  const MergedImage merged = mergeImages(parts, ImageLimits(), warnings);
   printWarnings(warnings);
 
   const WriteScope scope;

@@ -187,6 +187,7 @@ class ImageWriter {
   const RunSummary& run() const { return run_; }
   std::size_t kept() const { return run_.kept; }
   const DisplayImage& firstPicture() const { return films_[0].display; }
+  const Image& image() const { return films_[0].image; }
   const Exposure& exposure() const { return engine_.options().exposure; }
   const std::vector<std::string>& written() const { return written_; }
   const std::optional<Receipt>& receipt() const { return receipt_; }
@@ -284,7 +285,10 @@ void printWrittenImages(const ImageWriter& writer, const RenderJob& job, double 
   std::string what = concat(files.size(), " images");
   if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
   if (writer.kept() > 0) what += concat(", kept ", writer.kept());
-  if (!run.frames.empty()) what += formatted(", %dx%d", run.width, run.height);
+  const Image& image = writer.image();
+  if (!run.frames.empty()) {
+    what += formatted(", %dx%d", image.windowWidth(), image.windowHeight());
+  }
   if (job.common.render.exposure.automatic) {
     what += formatted(", exposure %g EV", double{writer.exposure().ev});
   }

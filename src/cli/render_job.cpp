@@ -20,9 +20,6 @@ constexpr const char* kFilm = ".mp4";
 
 void checkStandardOutput(const RenderJob& job) {
   if (!job.toStandardOutput()) return;
-  refuseIf(std::ranges::count(job.outputs, kStandardOutput) > 1,
-           "-o -: standard output takes one image: give it once");
-  refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
   refuseIf(isatty(STDOUT_FILENO),
            "-o -: this terminal shows no pictures: send standard output elsewhere");
@@ -56,7 +53,7 @@ void addNamedChannels(RenderJob& job) {
                  "s do not fit into a PNG: write an EXR");
     }
 
-    if (isJpeg(output)) requireNoChannelName(output);
+    if (isJpeg(output) || isFilm(output)) requireNoChannelName(output);
   }
 
   const ChannelSet homeless = holdsAll ? ChannelSet() : kept.without(named);
@@ -132,6 +129,15 @@ void warnOfClearGlass(const RenderJob& job, const Scene& scene) {
              stderr);
 }
 
+// The error of one sample is not known, which only an EXR can say.
+void checkErrorChannel(const RenderJob& job) {
+  if (job.common.render.spp > 1) return;
+  for (const std::string& output : job.outputs) {
+    refuseIf(extensionOf(output) == ".png" && channelNamedBy(output, {}) == Channel::error,
+             "'" + output + "': one sample tells no error: add --spp 2 or more");
+  }
+}
+
 void checkFilmed(const RenderJob& job, const Scene& scene) {
   if (job.frames.empty() || job.onTurntable) return;
   refuseIf(scene.cameraPath.empty() && scene.animations.empty(),
@@ -152,7 +158,8 @@ OptionList listOptions(RenderJob& job) {
   list.group("Output");
   list.many({"output", "FILE"},
             "image to write, .exr (linear), .png or .jpg, or a film of all frames, .mp4; - writes "
-            "a PNG to standard output; may be repeated (default: SCENE.png)",
+            "a PNG to standard output; may be repeated" +
+                std::string(job.onTurntable ? "" : " (default: SCENE.png)"),
             job.outputs)
       .shortName = "o";
 
@@ -203,22 +210,28 @@ void checkJob(RenderJob& job) {
   checkFilm(job);
   checkStandardOutput(job);
 
+  std::vector<std::string> files{job.json};
   for (const std::string& output : job.outputs) {
-    refuseIf(std::ranges::count(job.outputs, output) > 1, "-o " + output + ": give each file once");
     refuseIf(job.resume && isJpeg(output),
              "--resume: a JPEG does not hold the options it was made with");
     if (output != kStandardOutput)
       requireWritable(output, {".exr", ".png", ".jpg", ".jpeg", kFilm});
 
     // Frames need a place for their number in the file's name, and a single image has none.
-    if (job.frames.empty()) {
-      requireNoFrameName(output);
-    } else if (!isFilm(output)) {
-      frameName(output, 0);
+    const bool isFrame = !job.frames.empty() && !isFilm(output);
+    if (job.frames.empty()) requireNoFrameName(output);
+    const FrameRange range = isFrame ? parseFrameRange(job.frames) : FrameRange();
+
+    // Frames count if they would replace a file, and the last one always: patterns that agree for
+    // any frame agree for the last one, which has the most digits.
+    for (int frame = range.first; frame <= range.last; ++frame) {
+      const std::string file = isFrame ? frameName(output, frame) : output;
+      if (frame == range.last || std::filesystem::exists(file)) files.push_back(file);
     }
   }
 
   requireJsonWritable(job.json);
+  requireSeparateFiles(files, job.common, job.scenes);
   if (job.makesFilm() && !hasFfmpeg()) {
     throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
   }
@@ -226,6 +239,7 @@ void checkJob(RenderJob& job) {
 
 void checkScene(const RenderJob& job, const Scene& scene) {
   checkBackground(job);
+  checkErrorChannel(job);
   checkFilmed(job, scene);
   warnOfClearGlass(job, scene);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "command_line/help_text.h"
 #include "core/error.h"
@@ -111,6 +112,12 @@ void takeCameraFile(const std::string& file, CommonOptions& common) {
 
   // It is read here as well, so that errors name its file in place of the scene's.
   JsonObject object{JsonValue(document)};
+  if (object.has("pose") || object.has("K")) {
+    object.value().fail(
+        "eye, at, up, k as [fx, fy, cx, cy] and kSize, which Python's "
+        "whit.Camera.from_k(K, pose, size).members gives",
+        "a matrix K or a pose");
+  }
   object.need("eye");
   object.need("at");
   Camera camera;
@@ -122,6 +129,7 @@ void takeCameraFile(const std::string& file, CommonOptions& common) {
   const std::string name = std::filesystem::path(file).stem().string();
   common.load.settings.push_back("/cameras/" + escapePointer(name) + "=" + textOf(document.root));
   common.render.camera = name;
+  common.cameraFile = file;
 }
 
 // Turns the options of a model's view into members of its scene.
@@ -156,6 +164,8 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       entry.placeholder = "NAME|FILE.json";
       entry.help += ", or one with the members of a scene file's camera";
     }
+    if (entry.name == "tonemap") entry.help += "; of models without a scene file filmic";
+    if (entry.name == "background") entry.help += "; of models without a scene file c8c8c8";
 
     // The names of the given options are kept, because presets and scenes must not override them.
     entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
@@ -224,6 +234,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
     takeView(common);
     common.load.threads = common.render.threads;
     common.load.size = common.render.size;
+    common.load.camera = common.render.camera;
     common.load.sphereSegments = common.render.sphereSegments;
     common.load.maxMemoryBytes = common.maxMemoryGb
                                      ? static_cast<std::uint64_t>(*common.maxMemoryGb * 1e9)
@@ -239,6 +250,32 @@ RenderOptions optionsFor(const Scene& scene, const CommonOptions& common) {
 
 RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common) {
   return scene.isModel ? optionsFor(scene, common) : common.render;
+}
+
+void requireSeparateFiles(const std::vector<std::string>& written, const CommonOptions& common,
+                          const std::vector<std::string>& scenes,
+                          const std::vector<std::string>& pictures) {
+  std::vector<std::string> read = pictures;
+  read.insert(read.end(), {common.load.sky, common.cameraFile});
+  for (const std::string& scene : scenes) read.push_back(findScene(parseSceneName(scene).file));
+
+  // Different names of one file, such as a link or a path with "..", lead to the same place.
+  const auto placeOf = [](const std::string& file) {
+    std::error_code error;
+    auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+    return error ? std::filesystem::path(file) : place;
+  };
+  std::map<std::filesystem::path, std::string> known;
+  for (const std::string& file : read) known.emplace(placeOf(file), file);
+
+  for (const std::string& file : written) {
+    std::error_code error;
+    if (file.empty() || std::filesystem::is_other(file, error)) continue;
+
+    const auto [other, isNew] = known.emplace(placeOf(file), file);
+    refuseIf(!isNew, "cannot write '" + file + "': it is the same as '" + other->second +
+                         "', which is read or written too: name another file");
+  }
 }
 
 bool parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,

@@ -18,6 +18,7 @@ struct CommonOptions {
   RenderOptions render;
   std::set<std::string> given;  // names of the render options on the command line
   LoadOptions load;
+  std::string cameraFile;               // file that --camera names; empty: none
   std::optional<double> azimuth, zoom;  // view of a model's camera
   bool ground = false;                  // a shadow below a model
   std::optional<double> maxMemoryGb;    // empty: defaultMaxMemory()
@@ -36,6 +37,13 @@ RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
 // The options of frames whose cost or accuracy is measured: without those of a scene file, so that
 // figures of different scenes, and of one option alone, can be compared.
 RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common);
+
+// Throws Error(usage) if a file that is to be written is also read, or is written twice, as
+// standard output ("-"). Devices and empty names are left out. A command reads `scenes`, the files
+// that the options name, and `pictures`.
+void requireSeparateFiles(const std::vector<std::string>& written, const CommonOptions& common,
+                          const std::vector<std::string>& scenes,
+                          const std::vector<std::string>& pictures = {});
 
 // Parses `words` (without the names of program and command). --help and --help-all print the help
 // text, which begins with `usage` and `summary`; a first word --man prints the command's part of

@@ -61,7 +61,7 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
     const int status = body();
     // The flag tells of earlier writes, which did not fit into the buffer.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-    if (lost) return fail(name, ExitStatus::io, "cannot write the result");
+    if (lost) return fail(name, ExitStatus::io, "cannot write the result to standard output");
     return status;
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);

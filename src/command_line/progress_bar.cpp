@@ -14,8 +14,8 @@ namespace whit::cli {
 
 void printWarnings(const Warnings& warnings) {
   for (const auto& [kind, entry] : warnings.entries()) {
-    std::fprintf(stderr, "whit: warning: %s (%llu times, first: %s)\n", printable(kind).c_str(),
-                 static_cast<unsigned long long>(entry.count), printable(entry.first).c_str());
+    std::fprintf(stderr, "whit: warning: %s (%s, first: %s)\n", printable(kind).c_str(),
+                 counted(entry.count, "time").c_str(), printable(entry.first).c_str());
   }
 }
 

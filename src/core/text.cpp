@@ -66,20 +66,54 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 // Options of other programs and of former versions, and what they are called here.
+// A value may follow.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"aa", "spp"},          {"alpha", "background"}, {"ao", "ambient-samples"},
-    {"avx512", "avx3"},     {"bg", "background"},    {"bounces", "depth"},
-    {"env", "sky"},         {"environment", "sky"},  {"envmap", "sky"},
-    {"from", "eye"},        {"gamma", "tonemap"},    {"gi", "indirect"},
-    {"hdr", "sky"},         {"hdri", "sky"},         {"height", "size"},
-    {"host", "bind"},       {"j", "threads"},        {"look-at", "at"},
-    {"lookat", "at"},       {"lookfrom", "eye"},     {"max-depth", "depth"},
-    {"O", "output"},        {"out", "output"},       {"range", "frames"},
-    {"ray-depth", "depth"}, {"reference", "mode"},   {"res", "size"},
-    {"resolution", "size"}, {"runs", "frames"},      {"s", "spp"},
-    {"samples", "spp"},     {"seconds", "budget"},   {"transparent", "background"},
-    {"v", "stats"},         {"verbose", "stats"},    {"w", "size"},
-    {"width", "size"},      {"fine", "good"}};
+    {"aa", "spp"},
+    {"alpha", "background transparent"},
+    {"ao", "ambient-samples"},
+    {"avx512", "avx3"},
+    {"background-color", "background"},
+    {"bg", "background"},
+    {"bgcolor", "background"},
+    {"bounces", "depth"},
+    {"cores", "threads"},
+    {"env", "sky"},
+    {"environment", "sky"},
+    {"envmap", "sky"},
+    {"from", "eye"},
+    {"gamma", "tonemap"},
+    {"gi", "indirect"},
+    {"hdr", "sky"},
+    {"hdri", "sky"},
+    {"height", "size"},
+    {"host", "bind"},
+    {"j", "threads"},
+    {"look-at", "at"},
+    {"lookat", "at"},
+    {"lookfrom", "eye"},
+    {"max-depth", "depth"},
+    {"no-shadows", "disable shadows"},
+    {"O", "output"},
+    {"out", "output"},
+    {"position", "eye"},
+    {"q", "quality"},
+    {"range", "frames"},
+    {"ray-depth", "depth"},
+    {"reference", "mode"},
+    {"res", "size"},
+    {"resolution", "size"},
+    {"runs", "frames"},
+    {"s", "spp"},
+    {"samples", "spp"},
+    {"seconds", "budget"},
+    {"skybox", "sky"},
+    {"transparent", "background transparent"},
+    {"v", "stats"},
+    {"verbose", "stats"},
+    {"w", "size"},
+    {"widht", "size"},
+    {"width", "size"},
+    {"fine", "good"}};
 
 }  // namespace
 
@@ -120,7 +154,7 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   // A known synonym of another program is a better guess than any similar name.
   for (const auto& [theirs, ours] : kSynonyms) {
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
-    const bool isKnown = contains(names, name);
+    const bool isKnown = contains(names, name.substr(0, name.find(' ')));
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
   }
 

@@ -291,6 +291,9 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   }
   if (path.has_extension()) return path;
 
+  if (fs::is_directory(path, error)) {
+    throwUsage("'" + file + "' is a folder: name a scene file or a model in it");
+  }
   const std::vector<std::string> names = shippedNames(folders);
   throwUsage("no scene is called '" + file + "'" +
              (names.empty() ? " (no scenes found; is $WHIT_SCENES set?)"

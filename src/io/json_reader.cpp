@@ -220,6 +220,7 @@ std::string JsonValue::word(const std::vector<std::string>& choices) const {
   }
 
   const std::string list = inQuotes(joined(choices, "\", \""));
+  if (choices.size() == 1) fail(list);
   fail("one of " + list + (isText() ? suggestion(text(), choices) : ""));
 }
 

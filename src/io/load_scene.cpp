@@ -353,12 +353,20 @@ void readLightSettings(const LoadOptions& options, JsonDocument& document, JsonO
   readLights(file, {}, scene);
 }
 
+// Models and views have cameras of their own, and the camera "path" flies the scene's path.
+void requireCamera(const std::string& camera, JsonObject& file, const SceneDescription& scene) {
+  const std::vector<std::string> names = namesIn(scene.cameras);
+  const bool areAll = !names.empty() && !file.has("view") && camera != "path";
+  if (areAll && !contains(names, camera)) indicesOf(camera, names, "camera");
+}
+
 SceneDescription readScene(const JsonDocument& document, const LoadOptions& options,
                            SceneContext& context) {
   JsonObject file{JsonValue(document)};
   file.need("whit");
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
+  requireCamera(options.camera, file, context.scene);
   if (context.scene.cameras.empty()) takeSize(options, context.scene);
   readLights(file, options.instant, context.scene);
   std::optional<double> fromSky = readSurroundings(file, context);

@@ -43,6 +43,10 @@ struct LoadOptions {
   // animation that no model has, are Error(usage).
   Instant instant;
 
+  // The camera that is asked for, if any. One that a scene file lacks is Error(usage) before its
+  // shapes and images are made, which can take minutes.
+  std::string camera;
+
   // Number of segments of the triangles that replace each exact sphere, at least 4 (otherwise
   // Error(usage)). With 0 the spheres stay.
   int sphereSegments = 0;

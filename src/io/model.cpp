@@ -4,7 +4,9 @@
 #include <map>
 #include <utility>
 
+#include "core/error.h"
 #include "core/text.h"
+#include "io/files.h"
 
 namespace whit {
 namespace {
@@ -56,6 +58,17 @@ Body MeshModel::content(SceneLayout&, const std::vector<std::uint32_t>& material
 }
 
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings) {
+  // Readers of text skip lines that they do not know, so a file of another format seems empty.
+  static const std::map<std::string, std::string> kBeginnings{
+      {"glTF", ".glb"},  {"Kaydara", ".fbx"}, {"ply", ".ply"},
+      {"solid", ".stl"}, {"{", ".gltf"},      {"PK\x03\x04", ".zip"}};
+  const std::string found = readBeginning(file, 8), own = extensionOf(file);
+  for (const auto& [beginning, extension] : kBeginnings) {
+    if (extension == own || !found.starts_with(beginning)) continue;
+    throwBadScene(file, "expected the content of a " + own + " file, found that of a " + extension +
+                            " file: rename or convert it");
+  }
+
   warnings.add("model with nothing to draw: " + why, file);
 }
 

@@ -18,7 +18,7 @@ namespace {
 std::vector<std::string> warningsOf(const OpenScene& open) {
   std::vector<std::string> all;
   for (const auto& [kind, entry] : open.warnings.entries()) {
-    all.push_back(concat(kind, " (", entry.count, " times, first: ", entry.first, ")"));
+    all.push_back(concat(kind, " (", counted(entry.count, "time"), ", first: ", entry.first, ")"));
   }
   if (std::string dark = noLightWarning(open.scene); !dark.empty()) all.push_back(std::move(dark));
   return all;

@@ -92,6 +92,25 @@ TEST_F(Channels, AnImageNamedByOneHoldsItAlone) {
   expectColors("a.uv.exr", {"uv.U", "uv.V", ""});
 }
 
+// A frame's number may stand before the channel's name or behind it.
+TEST_F(Channels, FramesHoldTheChannelTheyAreNamedBy) {
+  const std::string model = folder_ / "model.obj";
+  std::ofstream(model) << "v -1 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
+  succeed({"render", tiny_, "--frames", "0..1", "-o", folder_ / "f##.depth.png", "-o",
+           folder_ / "f##.depth.exr", "-o", folder_ / "g.depth.##.exr", "--quiet"});
+  succeed({"turntable", model, "--count", "2", "--size", "24x16", "-o", folder_ / "tt.##.depth.exr",
+           "--quiet"});
+
+  for (const char* file : {"f01.depth.exr", "g.depth.01.exr", "tt.01.depth.exr"}) {
+    EXPECT_EQ(metadataOf(folder_ / file).at("channel"), "depth") << file;
+  }
+  EXPECT_EQ(readFile(folder_ / "f01.depth.exr"), readFile(folder_ / "g.depth.01.exr"));
+  constexpr std::size_t kDepthAt = 24, kColorTypeAt = 25;  // in the head of a PNG
+  const std::string png = readFile(folder_ / "f01.depth.png");
+  EXPECT_EQ(png.at(kDepthAt), 16);
+  EXPECT_EQ(png.at(kColorTypeAt), 0) << "gray";
+}
+
 TEST_F(Channels, DepthsBeyondWhat16BitsHoldAreRefused) {
   expectRefused(5, "does not fit into 16 bits",
                 {"render", tiny_, "-o", folder_ / "a.depth.png", "--channels", "depth", "--eye",

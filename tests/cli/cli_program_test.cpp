@@ -18,6 +18,47 @@ class Program : public TinySceneTest {};
 TEST_F(Program, TellsItsVersion) {
   const Outcome outcome = succeed({"--version"});
   EXPECT_EQ(outcome.out.rfind("whit ", 0), 0u) << outcome.out;
+  for (const std::string word : {"version", "-V"}) EXPECT_EQ(succeed({word}).out, outcome.out);
+}
+
+TEST_F(Program, HelpTellsWhatModelsGet) {
+  const std::string help = runWhit({"render", "--help"}, [] { setenv("COLUMNS", "120", 1); }).out;
+  EXPECT_TRUE(hasText(help, "(default: none); of models without a scene file filmic"));
+  EXPECT_TRUE(hasText(help, "c8c8c8"));
+  EXPECT_TRUE(hasText(help, "SCENE.png)"));
+  EXPECT_FALSE(hasText(runWhit({"turntable", "--help"}).out, "SCENE.png"));
+}
+
+TEST_F(Program, SaysWhichOutputCannotBeWritten) {
+  const Outcome full =
+      runWhit({"--version"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  expectFailed(full, 4, "cannot write the result to standard output");
+}
+
+// A roboticist has a matrix and a pose.
+TEST_F(Program, ACameraWithAPoseLeadsToPython) {
+  for (const std::string member : {R"("pose": [])", R"("K": [])"}) {
+    std::ofstream(folder_ / "c.json") << "{" << member << "}";
+    expectFailure({"render", tiny_, "--camera", folder_ / "c.json"}, 3,
+                  "whit.Camera.from_k(K, pose");
+  }
+}
+
+TEST_F(Program, WarningsCountInEnglish) {
+  std::ofstream(folder_ / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n";
+  const Outcome outcome =
+      succeed({"render", folder_ / "a.obj", "-o", folder_ / "a.png", "--size", "16x10"});
+  EXPECT_TRUE(hasText(outcome.err, "(1 time, first: "));
+}
+
+// Its text reader would find nothing to draw in another format.
+TEST_F(Program, AnObjThatIsNoneIsRefused) {
+  for (const auto& [content, seems] : std::vector<std::pair<std::string, std::string>>{
+           {"glTF\2", ".glb"}, {"PK\3\4", ".zip"}, {"ply\n", ".ply"}, {"solid a\n", ".stl"}}) {
+    std::ofstream(folder_ / "wrong.obj") << content;
+    expectFailure({"render", folder_ / "wrong.obj", "-o", folder_ / "a.png", "--size", "16x10"}, 3,
+                  "wrong.obj: expected the content of a .obj file, found that of a " + seems);
+  }
 }
 
 TEST_F(Program, EveryCommandHasHelp) {
@@ -100,6 +141,7 @@ TEST_F(Program, SaysWhatItWrote) {
   };
   expectLine({"render", tiny_, "-o", one}, "wrote " + one + ", 48x32, ");
   expectLine({"render", tiny_, "-o", one, "--exposure", "auto"}, "wrote " + one + ", 48x32, expos");
+  expectLine({"render", tiny_, "-o", one, "--crop", "8,4,40,21"}, "wrote " + one + ", 32x17, ");
   expectLine({"render", tiny_, "-o", frames, "--frames", "0..2"}, "wrote 3 images, 48x32, ");
 }
 

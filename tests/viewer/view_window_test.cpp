@@ -344,6 +344,7 @@ TEST(ViewerAlone, SaysThatThereIsNoDisplay) {
       runOn("", folder.path().string(), {WHIT_VIEW_PROGRAM, "whitted", "--quiet"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_TRUE(hasText(outcome.err, "no display"));
+  EXPECT_TRUE(hasText(outcome.err, "whit serve SCENE"));
 }
 
 TEST(ViewerAlone, RefusesWhatItCannotShow) {

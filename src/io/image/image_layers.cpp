@@ -202,8 +202,8 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
   if (extensionOf(path) != ".png" && extensionOf(path) != ".exr") return std::nullopt;
 
   std::string name = inLowerCase(std::filesystem::path(path).stem().string());
-  // The frame's number and the separators before it are no part of the channel's name.
-  if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
+  // The frame's number and the separators at the end are no part of the channel's name.
+  std::erase(name, '#');
   while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
     name.pop_back();
   }
@@ -218,10 +218,12 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
   return channel;
 }
 
-void requireNoChannelName(const std::string& jpeg) {
-  const std::string asPng = std::filesystem::path(jpeg).replace_extension(".png").string();
+void requireNoChannelName(const std::string& file) {
+  const std::string asPng = std::filesystem::path(file).replace_extension(".png").string();
   if (!channelNamedBy(asPng, ChannelSet())) return;
-  throwUsage("'" + jpeg + "': a JPEG holds no channel: write '" + asPng + "'");
+  const bool isFilm = extensionOf(file) == ".mp4";
+  throwUsage("'" + file + "': a " + (isFilm ? "film" : "JPEG") + " holds no channel: write '" +
+             asPng + "'");
 }
 
 void writeChannelExr(const std::string& path, const Image& image, const ChannelLayers& channels,

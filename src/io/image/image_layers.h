@@ -29,12 +29,13 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels,
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
 
 // Returns the channel that a PNG or EXR of this name holds in place of the picture, by the last
-// part of the name, in any case, before its extension or before a frame's number: "out.depth.png",
-// "a.normal-####.exr". A PNG whose name has no other part, as "depth.png", holds a channel that is
-// kept.
+// part of the name, in any case, before its extension, apart from a frame's number:
+// "out.depth.png", "a.normal-####.exr", "a####.normal.exr". A PNG whose name has no other part, as
+// "depth.png", holds a channel that is kept.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
-// Throws Error(usage) if the name of a JPEG asks for a channel, which only a PNG or an EXR holds.
-void requireNoChannelName(const std::string& jpeg);
+// Throws Error(usage) if the name of a JPEG or a film asks for a channel, which only a PNG or an
+// EXR holds.
+void requireNoChannelName(const std::string& file);
 
 // Writes a channel as an EXR that programs without knowledge of channels read: normals, positions,
 // albedo and texture coordinates as R, G, B, of others the first component as Y. Numbers become
