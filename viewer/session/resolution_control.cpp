@@ -6,6 +6,10 @@ namespace whit::view {
 
 constexpr double kNewest = 0.3;  // weight of the newest frame in the mean cost
 
+void ResolutionControl::setRate(double framesPerSecond) {
+  rate_ = std::clamp(framesPerSecond, kLeastRate, kLargestRate);
+}
+
 void ResolutionControl::learn(double ms, double samples, bool plain) {
   if (!(ms > 0) || !(samples > 0)) return;
   const double cost = ms / samples;

@@ -41,8 +41,9 @@ inline constexpr double kHeadroom = 0.92;
 
 class ResolutionControl {
  public:
-  ResolutionControl(double framesPerSecond, int spp) : rate_(framesPerSecond), spp_(spp) {}
+  ResolutionControl(double framesPerSecond, int spp) : spp_(spp) { setRate(framesPerSecond); }
 
+  void setRate(double framesPerSecond);  // brought into [kLeastRate, kLargestRate]
   double rate() const { return rate_; }
   // Sets the samples asked for, and whether they have sampled rays, which can be left out.
   void setSamples(int spp, bool raysAreSampled) {
@@ -72,7 +73,7 @@ class ResolutionControl {
   std::vector<Sharpness> stepsInMotion() const;
   std::vector<Sharpness> stepsAtRest(bool supersample) const;
 
-  double rate_;
+  double rate_ = kFewCoresRate;
   int spp_;
   bool raysAreSampled_ = false;
   bool sampled_ = false;

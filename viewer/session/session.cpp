@@ -401,7 +401,9 @@ bool Session::fetchFrame() {
   if (!thread_.take(state_.shown)) return answered;
   state_.unfinished.reset();
   if (state_.shown.scene != state_.scene && followScene()) {
-    state_.shown = TracedFrame();  // the picture is from the camera of the other scene
+    // The picture is from the camera of the other scene, and one like it may be asked for again.
+    state_.shown = TracedFrame();
+    asked_.reset();
     return false;
   }
 
