@@ -273,8 +273,11 @@ void requireSeparateFiles(const std::vector<std::string>& written, const CommonO
     if (file.empty() || std::filesystem::is_other(file, error)) continue;
 
     const auto [other, isNew] = known.emplace(placeOf(file), file);
-    refuseIf(!isNew, "cannot write '" + file + "': it is the same as '" + other->second +
-                         "', which is read or written too: name another file");
+    if (isNew) continue;
+    refuseIf(file == "-",
+             "standard output takes one output, '-o -' or '--json -': name a file for the other");
+    throwUsage("cannot write '" + file + "': it is the same as '" + other->second +
+               "', which is read or written too: name another file");
   }
 }
 

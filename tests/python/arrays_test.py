@@ -145,7 +145,7 @@ class Arrays(unittest.TestCase):
         nan = mesh.positions * np.nan
         cases = [
             ("name", "'sheet'", lambda: scene.update_mesh("shet", mesh.positions)),
-            ("name", "a dict", lambda: whit.Scene("whitted").update_mesh("a", mesh.positions)),
+            ("update_mesh", "a dict", lambda: whit.Scene("whitted").update_mesh("a", mesh.positions)),
             ("positions", "(4, 3)", lambda: scene.update_mesh("sheet", mesh.positions[:3])),
             ("positions", "(n, 3)", lambda: scene.update_mesh("sheet", None)),
             ("/scene/0/mesh", "finite", lambda: scene.update_mesh("sheet", nan)),

@@ -347,8 +347,8 @@ class Scene:
         meshes = self._source[2] if len(self._source) > 1 else {}
         if name not in meshes:
             if not meshes:
-                raise Error("update_mesh: only a scene made of a dict has meshes to update, as "
-                            '{"mesh": whit.Mesh(...)}', 2)
+                _arrays._fail("update_mesh", 'a scene made of a dict with {"mesh": whit.Mesh(...)}',
+                              "a scene without such meshes")
             _arrays._fail("name", ", ".join(map(repr, meshes)), repr(name))
         if isinstance(positions, Mesh):
             arrays = positions._arrays()
