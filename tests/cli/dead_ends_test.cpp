@@ -159,7 +159,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"info landscape?triangles=20000000 --max-memory 0.1 --camera nope", kUsage, "every camera"},
     {"render chess.glb --camera front --zoom 2", kUsage, "leave out --camera"},
     {"turntable chess.glb -o x.mp4 --azimuth 9 --camera a", kUsage, "leave out --camera"},
-    {"bench whitted --csv - --json -", kUsage, "cannot write '-': it is the same as '-', which"},
+    {"bench whitted --csv - --json -", kUsage, "standard output takes one output"},
     {"bench whitted --csv x", kUsage, "expected a name that ends in .csv"},
     {"render whitted --camera nope.json", kIo, "cannot open nope.json: no such file"},
     {"render whitted --sky nope.hdr", kIo, "--sky: cannot open nope.hdr: no such file"},
