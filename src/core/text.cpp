@@ -65,8 +65,8 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-// Options of other programs and of former versions, and what they are called here.
-// A value may follow.
+// Options of other programs and of former versions, and their names here. A name may be followed by
+// the value that has the same effect.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"aa", "spp"},
     {"alpha", "background transparent"},

@@ -124,8 +124,7 @@ std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
   return chosen;
 }
 
-// Calls use(impulse, branch of its path, number of samples) for each sample of a lobe that rays
-// sample.
+// Calls use(impulse, branch of its path, number of samples) for each sample of the lobe.
 template <typename Use>
 void Tracer::forEachSample(const SampledLobe& sampled, const Surfel& surfel, int depth,
                            std::uint32_t media, const Path& path, const Use& use) const {

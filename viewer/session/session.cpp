@@ -26,7 +26,7 @@ std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<OpenScene> emptyScene() {
-  // With light, nothing says why the picture is black.
+  // The scene has light, so that notice() does not explain why the picture is black.
   const Json root{{"whit", 1}, {"ambient", {{"color", 1}}}};
   const auto text = std::make_shared<const SceneText>(SceneText{"", root, {}});
   return openScene({"", text}, {}, false);

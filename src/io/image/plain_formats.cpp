@@ -323,7 +323,7 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   readOldRuns(bytes, row);
 }
 
-// What the header of a Radiance file says of the values.
+// The header of a Radiance file states how its values are scaled, and in which colors they are.
 struct RadianceHeader {
   std::array<double, 3> divisor{1, 1, 1};  // the product of all EXPOSURE and COLORCORR
   bool hasOtherPrimaries = false;
@@ -347,8 +347,8 @@ std::vector<double> numbersOf(const std::string& line, std::size_t most) {
   return numbers;
 }
 
-// Those of Rec. 709, and Radiance's own, which files without the line have as well. Photoshop
-// writes zeros.
+// Returns true for the primaries of Rec. 709, for Radiance's own, which files without the line have
+// as well, and for the zeros that Photoshop writes.
 bool areUsualPrimaries(const std::vector<double>& found) {
   constexpr double kTolerance = 2e-3;
   constexpr std::array<double, 8> kUsual[] = {{},

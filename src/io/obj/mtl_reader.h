@@ -46,9 +46,10 @@ void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMateria
 // and Pcr are the clearcoat. illum 0 and 1 have no highlight; 3, 5 and 8 mirror with Ks (5: all at
 // grazing incidence) unless a metalness is given; 4, 6, 7 and 9 (in files of Blender 4 and 7) are
 // glass with index Ni, filtered by Tf, else by 1 - d. Tr is 1 - d, but d in files of MeshLab. d
-// below 1 elsewhere lets 1 - d of the light straight through. map_d multiplies d: most of its
-// texels being gray, it is coverage, and else it cuts at a half. Without map_d, the alpha channel
-// of map_Kd is used. Ka and map_Ka are not read, because ambient light is reflected by Kd.
+// below 1 elsewhere lets 1 - d of the light straight through. A map_d whose texels are mostly gray
+// is coverage, which multiplies d; any other map_d is a mask that cuts at a half. Without map_d,
+// the alpha channel of map_Kd is used. Ka and map_Ka are not read, because ambient light is
+// reflected by Kd.
 struct ObjMaterial {
   GltfMaterial surface;
   Rgb mirror{0, 0, 0}, mirrorGrazing{0, 0, 0};  // reflectance of illum 3, 5 and 8
