@@ -170,7 +170,7 @@ TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, ErrorChannel, testing::Values(Mode::packets, Mode::reference));
 
-struct Sampled {
+struct SampledScene {
   const char* scene;
   int indirect, ambientSamples;
 };
@@ -179,8 +179,8 @@ struct Sampled {
 TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
   constexpr double kDeviations = 1.96;  // 95 % of a normal distribution
   constexpr double kLeastCovered = 0.9;
-  for (const Sampled& sampled : {Sampled{"cornell", 1, 0}, Sampled{"cornell", 0, 1},
-                                 Sampled{"glossy", 0, 0}, Sampled{"whitted", 0, 0}}) {
+  for (const SampledScene& sampled : {SampledScene{"cornell", 1, 0}, SampledScene{"cornell", 0, 1},
+                                 SampledScene{"glossy", 0, 0}, SampledScene{"whitted", 0, 0}}) {
     RenderOptions o = smallOptions();
     o.size = ImageSize{64, 48};
     o.lightSamples = 2;
