@@ -274,7 +274,7 @@ void GenerateRays(Chunk& c) {
 
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
-  const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
+  const LobeSampling ofLens = lensSampling(sampleNumber);
 
   const bool eyesTurn = camera.turning > 0;
   const V3 turnRight = Broadcast3(Vec3f(normalized(camera.right) * camera.turning));
@@ -334,7 +334,7 @@ void GenerateRays(Chunk& c) {
 
     if (hasLens) {
       const VU path = StreamOfPixel(packed, sampleNumber, seed);
-      lens.Bend(DiskPointsOf(SaltedPoints(path, lensSampling, kLensSalt, 0)), origin, direction);
+      lens.Bend(DiskPointsOf(SaltedPoints(path, ofLens, kLensSalt, 0)), origin, direction);
     }
 
     // A ray that sees nothing has the direction 0.

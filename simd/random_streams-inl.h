@@ -41,14 +41,16 @@ HWY_INLINE VF UnitFraction(VU bits) {
 HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t k) {
   const VU shift = Sub(path, Set(sampling.unshift));
   const uint32_t index = sampling.first + k;
-  return {UnitFraction(Add(shift, Set(index * kLatticeU))),
-          UnitFraction(Add(Mixed(Xor(shift, Set(kSecondShift))), Set(index * kLatticeV)))};
+  return {UnitFraction(Add(shift, Set(index * sampling.lattice.u))),
+          UnitFraction(Add(Mixed(Xor(shift, Set(kSecondShift))), Set(index * sampling.lattice.v)))};
 }
 
 HWY_INLINE UnitPoints SaltedPoints(VU path, const LobeSampling& sampling, uint32_t salt,
                                    uint32_t k) {
   const VU own = Xor(Sub(path, Set(sampling.unshift)), Set(salt));
-  return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
+  LobeSampling unshifted = sampling;
+  unshifted.unshift = 0;
+  return LobePoints(Mixed(own), unshifted, k);
 }
 
 HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,

@@ -38,8 +38,7 @@ std::array<double, 2> diskPoint(const UnitPoint& square) {
 Ray throughLens(const CameraFrame& camera, const Ray& central, const Path& path) {
   if (!(camera.aperture > 0) || central.direction == Vec3d()) return central;
 
-  const auto [x, y] =
-      diskPoint(saltedPoint(path.number, lightSampling(0, 1, path.sample), kLensSalt, 0));
+  const auto [x, y] = diskPoint(saltedPoint(path.number, lensSampling(path.sample), kLensSalt, 0));
   const Vec3d aside = (normalized(camera.right) * x + normalized(camera.up) * y) * camera.aperture;
   const Vec3d toFocus = central.direction * (camera.focus / dot(central.direction, camera.forward));
   return {central.origin + aside, normalized(toFocus - aside, central.direction), central.cone};

@@ -44,6 +44,17 @@ struct UnitPoint {
   float u = 0, v = 0;
 };
 
+// The steps of a lattice from one point to the next, in units of 2^-32.
+struct Lattice {
+  std::uint32_t u, v;
+};
+// The lattice of lobes is that of the plastic number (Roberts 2018, "The unreasonable effectiveness
+// of quasirandom sequences").
+inline constexpr Lattice kLobeLattice{3242174889u, 2447445414u};
+// A lens needs another one, or the place on the lens would decide what a lobe of the first surface
+// draws: the fractions of the square roots of 2 and 3. By itself it is as even as the other.
+inline constexpr Lattice kLensLattice{1779033703u, 3144134277u};
+
 // How the lobe of a surfel is sampled: `count` points of a lattice, from the point `first` on, that
 // is shifted at random from path to path. The samples of a pixel share the shift where they meet
 // the first surface, so that all their points together are one longer lattice.
@@ -51,6 +62,7 @@ struct LobeSampling {
   std::uint32_t count = 1;
   std::uint32_t first = 0;
   std::uint32_t unshift = 0;  // what the paths of a pixel's samples differ by
+  Lattice lattice = kLobeLattice;
 };
 
 // Surfels that the eye sees directly have `wanted` samples. Deeper surfels have one, because the
@@ -61,16 +73,14 @@ constexpr LobeSampling lobeSampling(int depth, int wanted, std::uint32_t sample)
   return {count, sample * count, sample * kSampleStep};
 }
 
-// Returns point k of the surfel that `path` has led to. The lattice is that of the plastic number
-// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), in units of 2^-32.
-inline constexpr std::uint32_t kLatticeU = 3242174889u, kLatticeV = 2447445414u;
+// Returns point k of the surfel that `path` has led to.
 inline constexpr std::uint32_t kSecondShift = 0x68bc21ebu;
 constexpr UnitPoint lobePoint(std::uint32_t path, const LobeSampling& sampling, std::uint32_t k) {
   const std::uint32_t shift = path - sampling.unshift, index = sampling.first + k;
 
   // Integers in units of 2^-32 wrap around at 1, the period of the lattice.
-  const std::uint32_t u = shift + index * kLatticeU;
-  const std::uint32_t v = mixed(shift ^ kSecondShift) + index * kLatticeV;
+  const std::uint32_t u = shift + index * sampling.lattice.u;
+  const std::uint32_t v = mixed(shift ^ kSecondShift) + index * sampling.lattice.v;
   return {static_cast<float>(u >> 8) * 0x1p-24f, static_cast<float>(v >> 8) * 0x1p-24f};
 }
 
@@ -81,10 +91,17 @@ constexpr LobeSampling lightSampling(int depth, std::uint32_t count, std::uint32
                    : LobeSampling{count, sample * count, sample * kSampleStep};
 }
 
+// The sampling of the lens by a sample of a pixel.
+constexpr LobeSampling lensSampling(std::uint32_t sample) {
+  return {1, sample, sample * kSampleStep, kLensLattice};
+}
+
 // Returns point k of a lattice that the salt makes independent of the path's other lattices.
 constexpr UnitPoint saltedPoint(std::uint32_t path, const LobeSampling& sampling,
                                 std::uint32_t salt, std::uint32_t k) {
-  return lobePoint(mixed((path - sampling.unshift) ^ salt), {sampling.count, sampling.first, 0}, k);
+  LobeSampling own = sampling;
+  own.unshift = 0;
+  return lobePoint(mixed((path - sampling.unshift) ^ salt), own, k);
 }
 
 // Returns point k of a light.

@@ -301,5 +301,26 @@ TEST(PathNumbers, PointsOfALobeAreEvenlySpread) {
   }
 }
 
+// Where a sample passes the lens says nothing about the direction that its first surface draws:
+// each half of the lens sees both halves of a lobe, whatever the shifts of the pixel's two
+// lattices.
+TEST(PathNumbers, LensAndLobeAreDrawnIndependently) {
+  constexpr std::uint32_t kSamples = 1024;
+  constexpr double kTolerance = 0.05;  // three standard deviations of random points
+
+  for (const int count : {1, 2, 4}) {
+    for (int x = 0; x < 20; ++x) {
+      std::uint32_t agree = 0;
+      for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+        const std::uint32_t path = streamOfPixel(packedPixel(x, 3), sample);
+        const UnitPoint lens = saltedPoint(path, lensSampling(sample), kLensSalt, 0);
+        const UnitPoint lobe = lobePoint(path, lobeSampling(0, count, sample), 0);
+        agree += (lens.u < 0.5f) == (lobe.u < 0.5f);
+      }
+      EXPECT_NEAR(agree / double{kSamples}, 0.5, kTolerance) << count << " samples, pixel " << x;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whit::reference

@@ -162,6 +162,56 @@ TEST(DepthOfField, IsSharpInThePlaneOfFocus) {
   }
 }
 
+// The edge of a roof, wholly out of focus: one half of the lens sees one side, which has more of
+// the light, and the other half the other side. Their mean is that of the two irradiances, (1 + s)
+// / 2 and (1 - s) / 2 of the sky's radiance, which is 1 towards -x and 0 elsewhere.
+Scene roof() {
+  constexpr float kSide = 50;
+  SceneBuilder builder;
+  const std::uint32_t white = builder.add(diffuseMaterial(1));
+  const Vec3f front{0, 0, kSide}, back{0, 0, -kSide};
+  for (const float x : {-kSide, kSide}) {
+    builder.add(quad(front, back, {x, -kSide, -kSide}, {x, -kSide, kSide}, white));
+  }
+
+  Camera camera;
+  camera.eye = {0, 10, 0};
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 0.01f;
+  camera.aperture = 0.5f;
+  camera.focus = 1000;
+  builder.description.cameras = {camera};
+
+  constexpr int kColumns = 64;
+  Sky& sky = builder.description.sky;
+  sky.kind = Sky::Kind::image;
+  sky.image.width = kColumns;
+  for (int column = 0; column < kColumns; ++column) {
+    const float radiance = column < kColumns / 2 ? 0.0f : 1.0f;  // towards +x, then towards -x
+    for (auto* plane : {&sky.image.r, &sky.image.g, &sky.image.b}) plane->push_back(radiance);
+  }
+  sky.image.height = 1;
+  return builder.build();
+}
+
+TEST(DepthOfField, WhatLobesDrawDoesNotFollowThePlaceOnTheLens) {
+  // Four standard deviations of the mean of 1024 independent samples that are 0 or 1.
+  constexpr double kTolerance = 4 * 0.5 / 32;
+  const Scene scene = roof();
+
+  for (const int samples : {1, 4}) {
+    RenderOptions o = optionsOf(1024);
+    o.size = ImageSize{8, 8};
+    o.indirect = samples;
+    for (const Mode mode : {Mode::packets, Mode::reference}) {
+      for (const Rgb& pixel : pictureOf(scene, o, mode).pixels) {
+        EXPECT_NEAR(pixel.y, 0.5, kTolerance) << samples;
+      }
+    }
+  }
+}
+
 // The view stays the same, but `at` is farther away, so `focus` has to give the distance.
 TEST(DepthOfField, FocusReplacesTheDistanceOfTheTarget) {
   const Scene scene = sceneOf({4, 8});
