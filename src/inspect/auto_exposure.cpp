@@ -4,13 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "core/channels.h"
 #include "core/display.h"
+#include "core/index.h"
 #include "core/quantile.h"
 #include "core/vec3.h"
-#include "core/worker_pool.h"
-#include "reference/reference.h"
-#include "render/embree_intersector.h"
-#include "surfaces/initial_media.h"
+#include "render/film.h"
 
 namespace whit {
 
@@ -32,59 +31,48 @@ constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights 
 constexpr double kDarkest = 1.0e-2;  // share of the bright ones' level; darker pixels count as this
 constexpr double kSteps = 8;         // steps in an EV
 constexpr double kMostEv = 32;
-constexpr auto kNothing = PixelSurface::kNothing;
 
 struct Luminances {
   std::vector<double> surfaces, sky;  // luminances of the pixels that show the one or the other
   std::vector<double> channels;       // the brightest channel of each pixel of a surface
 };
 
-Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
+// Renders a small picture. Fixed options make it independent of how the picture that is asked for
+// is computed.
+Luminances luminancesOf(Renderer& renderer, const Camera& camera) {
   const Scene& scene = renderer.scene();
   const int longer = std::max(scene.width, scene.height);
   const auto side = [&](int of) { return std::max(1, (of * kLongSide + longer / 2) / longer); };
-  const int width = side(scene.width), height = side(scene.height);
 
-  // Fixed settings and the scalar reference make the exposure independent of how the picture is
-  // computed.
-  reference::Settings settings;
-  settings.options.depth = kDepth;
-  settings.options.disable = renderer.options().disable;
-  settings.threads = renderer.machine().threads;
-  settings.effects = makePlan(scene, settings.options).effects;
+  const RenderOptions asked = renderer.options();
+  RenderOptions fixed;
+  fixed.depth = kDepth;
+  fixed.effects = asked.effects;
+  fixed.disable = asked.disable;
+  fixed.channels = ChannelSet().with(Channel::material);
 
-  const EmbreeIntersector intersector(renderer.accel());
-  const reference::Tracer tracer(scene, intersector, settings);
-  const CameraFrame frame =
-      frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
-
-  // Rows are joined in order, so that the result does not depend on the threads.
-  std::vector<Luminances> rows(height);
-  parallelFor(settings.threads, rows.size(), [&](std::size_t row, int) {
-    reference::RayCounts counts;
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width; ++x) {
-      const Rgb pixel(tracer.center(frame, x, y, counts));
-      const double l = luminance(pixel);
-      if (!(l >= 0) || !std::isfinite(l)) continue;
-
-      const std::uint32_t material = tracer.surfaceAtCenter(frame, x, y).material;
-      if (material == kNothing || scene.materials[material].name == kGroundShadowName) {
-        rows[row].sky.push_back(l);
-      } else {
-        rows[row].surfaces.push_back(l);
-        rows[row].channels.push_back(double{maxComponent(pixel)});
-      }
-    }
-  });
+  Film film;
+  film.image = Image(side(scene.width), side(scene.height));
+  film.wantDisplay = false;
+  renderer.setOptions(fixed);
+  renderer.render(camera, film);
+  renderer.setOptions(asked);
 
   Luminances all;
-  for (const Luminances& row : rows) {
-    all.surfaces.insert(all.surfaces.end(), row.surfaces.begin(), row.surfaces.end());
-    all.sky.insert(all.sky.end(), row.sky.begin(), row.sky.end());
-    all.channels.insert(all.channels.end(), row.channels.begin(), row.channels.end());
-  }
+  const auto materials = film.channels.numbers(Channel::material);
+  for (const auto i : indices(film.image.pixels)) {
+    const Rgb& pixel = film.image.pixels[i];
+    const double l = luminance(pixel);
+    if (!(l >= 0) || !std::isfinite(l)) continue;
 
+    const std::uint32_t material = materials[i];
+    if (material == kNoNumber || scene.materials[material].name == kGroundShadowName) {
+      all.sky.push_back(l);
+    } else {
+      all.surfaces.push_back(l);
+      all.channels.push_back(double{maxComponent(pixel)});
+    }
+  }
   return all;
 }
 
@@ -106,7 +94,7 @@ double exposed(ToneCurve curve, double level) {
 
 }  // namespace
 
-float exposureFor(const Renderer& renderer, const Camera& camera) {
+float exposureFor(Renderer& renderer, const Camera& camera) {
   auto [surfaces, sky, channels] = luminancesOf(renderer, camera);
   const auto curve = renderer.options().toneCurve;
   const double bright = quantile(surfaces, kBrightShare), middleOfSky = quantile(sky, 0.5);

@@ -6,9 +6,9 @@
 namespace whit {
 
 // Returns the exposure in steps of 1/8 EV. It follows from scene, camera, effects and tone curve
-// alone, not from size, crop or how the picture is computed: the reference traces a small picture
-// of the scene's own shape first.
-float exposureFor(const Renderer& renderer, const Camera& camera);
+// alone, not from size, crop or how the picture is computed: the packets of the renderer, which has
+// its own options afterwards, trace a small picture of the scene's own shape first.
+float exposureFor(Renderer& renderer, const Camera& camera);
 
 // Gives an automatic exposure of the options its value, and tells the renderer.
 void chooseExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);

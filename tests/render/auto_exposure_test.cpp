@@ -16,7 +16,7 @@ namespace whit {
 namespace {
 
 float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
-  const Renderer renderer(scene, options);
+  Renderer renderer(scene, options);
   return exposureFor(renderer, chooseCamera(scene, options));
 }
 
