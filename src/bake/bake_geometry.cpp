@@ -8,7 +8,9 @@
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
 #include "core/index.h"
+#include "core/machine_limits.h"
 #include "core/text.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -312,7 +314,11 @@ class Baker {
 
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
     std::vector<HashedPlace> order(places.size());
-    for (const auto k : indices(order)) order[k] = {triangle(k).hash(), k};
+    constexpr std::size_t kChunk = 16384;
+    parallelFor(usableThreads(), (order.size() + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+      const std::size_t end = std::min((chunk + 1) * kChunk, order.size());
+      for (std::size_t k = chunk * kChunk; k < end; ++k) order[k] = {triangle(k).hash(), k};
+    });
     dropSingles(order);
     std::ranges::sort(order);
 

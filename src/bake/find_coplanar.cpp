@@ -78,7 +78,7 @@ bool mayLieInOnePlane(const Slope& a, const Slope& b) {
   return !(dot(sine, sine) > most * most);
 }
 
-// A box, and the place of its item in the list of items.
+// A box, and the place of its item in a list of items.
 struct BoxedItem {
   std::uint32_t place = 0;
   Box box;
@@ -91,7 +91,7 @@ struct BoxCenter {
 };
 
 // Halves the items across their longest extent, again and again, so that neighbors follow each
-// other and all nodes but the last of a level are full.
+// other and all nodes but the last of a level are full. Threads share large halves.
 void sortInSpace(std::span<BoxCenter> items, std::size_t children, int threads) {
   std::size_t full = 1;  // the items of the largest full node that is smaller than all
   while (full * children < items.size()) full *= children;
@@ -108,10 +108,12 @@ void sortInSpace(std::span<BoxCenter> items, std::size_t children, int threads) 
       items.begin(), items.begin() + middle, items.end(),
       [along](const BoxCenter& a, const BoxCenter& b) { return a.twice.*along < b.twice.*along; });
 
+  const bool areShared = threads > 1 && std::min(middle, items.size() - middle) > kTaskTriangles;
   const auto sortHalf = [&](std::size_t half, int) {
-    sortInSpace(half == 0 ? items.first(middle) : items.subspan(middle), children, threads / 2);
+    sortInSpace(half == 0 ? items.first(middle) : items.subspan(middle), children,
+                areShared ? threads / 2 : threads);
   };
-  if (threads > 1) {
+  if (areShared) {
     parallelFor(threads, 2, sortHalf);
   } else {
     sortHalf(0, 0);
@@ -203,21 +205,20 @@ class BoxTree {
   static constexpr std::uint32_t kChildren = BoxBlock::kBoxes;
 
   BoxTree() = default;
-  BoxTree(std::vector<TreeItem> items, std::vector<BoxedItem> boxes, int threads)
-      : items_(std::move(items)) {
+  BoxTree(const std::vector<TreeItem>& items, const std::vector<BoxedItem>& boxes, int threads) {
     if (boxes.empty()) return;
     std::vector<BoxCenter> order;
     order.reserve(boxes.size());
     for (const auto& [place, box] : boxes) {
       order.push_back({box.lower + box.upper, static_cast<std::uint32_t>(order.size())});
     }
-    sortInSpace(order, kChildren, boxes.size() > kTaskTriangles ? threads : 1);
+    sortInSpace(order, kChildren, threads);
 
-    places_.reserve(boxes.size());
+    items_.reserve(boxes.size());
     levels_.emplace_back((boxes.size() + kChildren - 1) / kChildren);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const auto i : indices(order)) {
       const auto& [place, box] = boxes[order[i].number];
-      places_.push_back(place);
+      items_.push_back(items[place]);
       levels_[0][i / kChildren].set(i % kChildren, box);
     }
     counts_.push_back(static_cast<std::uint32_t>(boxes.size()));
@@ -240,19 +241,18 @@ class BoxTree {
     }
   }
 
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return items_.empty(); }
   std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
   std::uint32_t count(std::uint32_t level) const { return counts_[level]; }
   // The boxes of a level from number 8 * `block` on.
   const BoxBlock& block(std::uint32_t level, std::uint32_t block) const {
     return levels_[level][block];
   }
-  std::uint64_t item(std::uint32_t number) const { return items_[places_[number]].item; }
-  const Slope& slope(std::uint32_t number) const { return items_[places_[number]].slope; }
+  std::uint64_t item(std::uint32_t number) const { return items_[number].item; }
+  const Slope& slope(std::uint32_t number) const { return items_[number].slope; }
 
  private:
-  std::vector<TreeItem> items_;
-  std::vector<std::uint32_t> places_;  // index in items_ of each box of level 0
+  std::vector<TreeItem> items_;  // in the order of the boxes of level 0
   std::vector<std::vector<BoxBlock>> levels_;
   std::vector<std::uint32_t> counts_;  // boxes of each level
 };
@@ -386,6 +386,9 @@ class PairFinder {
     const Group* group = nullptr;
     std::uint32_t level = 0, first = 0;
     BoxBlock boxes;
+
+    // An instance turns the slopes of its triangles.
+    bool knowsSlopes() const { return group && level == 0 && group->instance == kNoInstance; }
   };
   Children childrenOf(const Node& node, const Node& other) const {
     Children children{node.group, node.level, node.number, {}};
@@ -427,18 +430,26 @@ class PairFinder {
     const BoxBlock::Bytes markedB = isSame ? markedA : ofB.boxes.meeting(a.box);
     left_ -= kWorkOfNodes + std::int64_t{std::popcount(markedA)} * std::popcount(markedB);
 
+    const bool knowSlopes = ofA.knowsSlopes() && ofB.knowsSlopes();
+
     forEachMarked(markedA, [&](std::size_t i) {
       const Box box = ofA.boxes.box(i);
       BoxBlock::Bytes overlapping = ofB.boxes.meeting(box) & markedB;
       if (isSame) overlapping &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
       if (overlapping == 0) return;
 
-      const Node first =
-          nodeOf(box, ofA.group, ofA.level, ofA.first + static_cast<std::uint32_t>(i));
+      const std::uint32_t numberA = ofA.first + static_cast<std::uint32_t>(i);
+      const Node first = nodeOf(box, ofA.group, ofA.level, numberA);
       forEachMarked(overlapping, [&](std::size_t k) {
-        const Node second = nodeOf(ofB.boxes.box(k), ofB.group, ofB.level,
-                                   ofB.first + static_cast<std::uint32_t>(k));
-        search(first, second);
+        const std::uint32_t numberB = ofB.first + static_cast<std::uint32_t>(k);
+
+        // Most pairs of triangles end here.
+        if (knowSlopes &&
+            !mayLieInOnePlane(ofA.group->tree->slope(numberA), ofB.group->tree->slope(numberB))) {
+          left_ -= kWorkOfFacets;
+          return;
+        }
+        search(first, nodeOf(ofB.boxes.box(k), ofB.group, ofB.level, numberB));
       });
     });
   }
@@ -453,14 +464,6 @@ class PairFinder {
     const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
     if (a == b) return;
     left_ -= kWorkOfFacets;
-
-    // An instance turns the slopes of its triangles.
-    const bool knowsSlopes =
-        nodeA.group->instance == kNoInstance && nodeB.group->instance == kNoInstance;
-    if (knowsSlopes && !mayLieInOnePlane(nodeA.group->tree->slope(nodeA.number),
-                                         nodeB.group->tree->slope(nodeB.number))) {
-      return;
-    }
 
     const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
     if (!test_(facet, facetOf(nodeB, b))) return;
@@ -535,7 +538,7 @@ class CoplanarFinder {
         boxes.push_back({static_cast<std::uint32_t>(items.size()), world_.boxOf(facet)});
         items.push_back({order, slopeOf(facet)});
       }
-      return BoxTree(std::move(items), std::move(boxes), 1);
+      return BoxTree(items, boxes, 1);
     };
     if (all.empty()) return {};
 
@@ -577,7 +580,7 @@ class CoplanarFinder {
 
     // Triangles that were skipped have empty boxes.
     std::erase_if(boxes, [](const BoxedItem& item) { return item.box.empty(); });
-    return {std::move(items), std::move(boxes), threads};
+    return {items, boxes, threads};
   }
 
   // The pairs of the groups, or of the groups with the others.
@@ -593,7 +596,7 @@ class CoplanarFinder {
       boxes.push_back({static_cast<std::uint32_t>(items.size()), box});
       items.push_back({items.size(), {}});
     }
-    const BoxTree groupTree(std::move(items), std::move(boxes), 1);
+    const BoxTree groupTree(items, boxes, 1);
 
     std::atomic<std::int64_t> work =
         (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +

@@ -21,20 +21,25 @@ constexpr std::int32_t Material::*kMippedMaps[] = {
     &Material::emissionMap,  &Material::normalMap,   &Material::coverageMap,
     &Material::occlusionMap, &Material::mirrorMap,   &Material::transmissionMap};
 
-// Value of a channel of a texel, in units of the largest code: of a color (10 bits) the linear
-// light, in the square of these units; of data (8 bits) the code. Radiance is returned itself.
-double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
-  if (format == TexelFormat::data) return texel >> (8 * channel) & 255u;
+// Values of the channels of a texel, in units of the largest code: of a color (10 bits) the linear
+// light, in the square of these units; of data (8 bits) the codes. Radiance is returned itself.
+std::array<double, 4> valuesOf(TexelFormat format, std::uint32_t texel) {
   if (format == TexelFormat::radiance) {
-    return static_cast<double>(decodeRadianceTexel(texel)[channel]);
+    const Rgb radiance = decodeRadianceTexel(texel);
+    return {radiance.x, radiance.y, radiance.z, 0};
   }
-  const double root = texel >> (10 * channel) & 1023u;
-  return root * root;
+  if (format == TexelFormat::data) {
+    return {double(texel & 255u), double(texel >> 8 & 255u), double(texel >> 16 & 255u),
+            double(texel >> 24)};
+  }
+
+  const double r = texel & 1023u, g = texel >> 10 & 1023u, b = texel >> 20 & 1023u;
+  return {r * r, g * g, b * b, 0};
 }
 
 // The code nearest to a mean. Halves go to the even code, so that one level after the other does
 // not get lighter. Means are often halves but for rounding errors, which must not decide.
-std::uint32_t codeOf(TexelFormat format, double value, int channel) {
+std::uint32_t codeOf(TexelFormat format, double value, std::size_t channel) {
   constexpr double kBeyondErrors = 1 << 20;
   const double code = format == TexelFormat::data ? value : std::sqrt(value);
   // Adding and subtracting 2^52 is std::nearbyint(), without a call.
@@ -43,39 +48,53 @@ std::uint32_t codeOf(TexelFormat format, double value, int channel) {
   return static_cast<std::uint32_t>(nearest) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
-// Sum over the covered texels, weighted by their shares, or mean by shares times `weights` if there
-// are any. The result is black where all weights are 0.
+// The mean of texels by their shares, which sum to 1 unless they are weighted. It is black where
+// all weights are 0.
+class TexelMean {
+ public:
+  TexelMean(TexelFormat format, bool isWeighted) : format_(format), isWeighted_(isWeighted) {}
+
+  void add(std::uint32_t texel, double share) {
+    const std::array<double, 4> values = valuesOf(format_, texel);
+    for (const auto c : indices(values)) sum_[c] += share * values[c];
+    total_ += share;
+  }
+
+  std::uint32_t texel() const {
+    std::array<double, 4> mean = sum_;
+    if (isWeighted_ && total_ > 0) {
+      for (double& channel : mean) channel /= total_;
+    }
+
+    if (format_ == TexelFormat::radiance) {
+      return encodeRadianceTexel(Rgb(RgbD(mean[0], mean[1], mean[2])));
+    }
+    const std::size_t channels = format_ == TexelFormat::data ? 4 : 3;
+    std::uint32_t texel = 0;
+    for (const auto c : indices(channels)) texel |= codeOf(format_, mean[c], c);
+    return texel;
+  }
+
+ private:
+  TexelFormat format_;
+  bool isWeighted_;
+  std::array<double, 4> sum_{};
+  double total_ = 0;
+};
+
 std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
                         const TexelCover& columns, const TexelCover& rows) {
-  std::array<double, 4> sum{};
-  double total = 0;
-  const int channels = texture.format == TexelFormat::data ? 4 : 3;
-
+  TexelMean mean(texture.format, weights != nullptr);
   for (const auto y : indices(rows.shares)) {
     for (const auto x : indices(columns.shares)) {
       const int column = columns.first + static_cast<int>(x);
       const int row = rows.first + static_cast<int>(y);
-      const std::uint32_t texel = texture.texel(column, row);
       double share = rows.shares[y] * columns.shares[x];
       if (weights) share *= weights->at(column, row);
-      total += share;
-      for (int c = 0; c < channels; ++c) {
-        sum[c] += share * valueOf(texture.format, texel, c);
-      }
+      mean.add(texture.texel(column, row), share);
     }
   }
-  if (weights && total > 0) {
-    for (double& channel : sum) channel /= total;
-  }
-
-  if (texture.format == TexelFormat::radiance) {
-    return encodeRadianceTexel(Rgb(RgbD(sum[0], sum[1], sum[2])));
-  }
-  std::uint32_t mean = 0;
-  for (int c = 0; c < channels; ++c) {
-    mean |= codeOf(texture.format, sum[c], c);
-  }
-  return mean;
+  return mean.texel();
 }
 
 // The codes that meanTexel() finds for four texels, from whole numbers.
@@ -114,7 +133,7 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights, int thread
 
   const auto fillRow = [&](std::size_t row) {
     std::uint32_t* to = &half.texels[row * columns.size()];
-    if (!isEven || weights || texture.format == TexelFormat::radiance) {
+    if (!isEven || texture.format == TexelFormat::radiance) {
       for (const TexelCover& column : columns)
         *to++ = meanTexel(texture, weights, column, rows[row]);
       return;
@@ -123,6 +142,10 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights, int thread
     const std::uint32_t* const upper = &texture.rows()[2 * row * texture.width];
     const std::uint32_t* const lower = upper + texture.width;
     for (int column = 0; column < texture.width; column += 2) {
+      if (weights && !weights->areEqual(column, static_cast<int>(2 * row))) {
+        *to++ = meanTexel(texture, weights, entryOf(columns, column / 2), rows[row]);
+        continue;
+      }
       *to++ = meanOfFour(texture.format,
                          {upper[column], upper[column + 1], lower[column], lower[column + 1]});
     }

@@ -1,6 +1,7 @@
 #include "bake/texel_weights.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "core/index.h"
@@ -44,23 +45,32 @@ TexelWeights uncutShares(const Texture& mask, float cutoff) {
   // At the midpoint of a quarter, the neighbor on that side counts for a quarter in each direction.
   const auto between = [](float own, float other) { return 0.75f * own + 0.25f * other; };
 
-  for (int row = 0; row < mask.height; ++row) {
-    const int rows[] = {wrapTexel(row - 1, mask.height, mask.wrapV),
-                        wrapTexel(row + 1, mask.height, mask.wrapV)};
-    for (int column = 0; column < mask.width; ++column) {
-      const int columns[] = {wrapTexel(column - 1, mask.width, mask.wrapU),
-                             wrapTexel(column + 1, mask.width, mask.wrapU)};
-      const float own = firstChannelAt(mask, column, row);
-      int uncut = 0;
+  // The columns with one more on each side, as the mask is continued there.
+  std::vector<int> columns;
+  for (int column = -1; column <= mask.width; ++column) {
+    columns.push_back(wrapTexel(column, mask.width, mask.wrapU));
+  }
 
-      // The mask is compared at the midpoints of the texel's four quarters.
-      for (const int otherRow : rows) {
-        const float ownColumn = between(own, firstChannelAt(mask, column, otherRow));
-        for (const int otherColumn : columns) {
-          const float beside = between(firstChannelAt(mask, otherColumn, row),
-                                       firstChannelAt(mask, otherColumn, otherRow));
-          if (between(ownColumn, beside) >= cutoff) ++uncut;
-        }
+  // A row halfway to the one above it, and halfway to the one below.
+  std::array<std::vector<float>, 2> halfway;
+  for (std::vector<float>& values : halfway) values.resize(columns.size());
+
+  for (int row = 0; row < mask.height; ++row) {
+    const int others[] = {wrapTexel(row - 1, mask.height, mask.wrapV),
+                          wrapTexel(row + 1, mask.height, mask.wrapV)};
+    for (const auto side : indices(halfway)) {
+      for (const auto i : indices(columns)) {
+        halfway[side][i] = between(firstChannelAt(mask, columns[i], row),
+                                   firstChannelAt(mask, columns[i], others[side]));
+      }
+    }
+
+    // The mask is compared at the midpoints of the texel's four quarters.
+    for (std::size_t i = 1; i + 1 < columns.size(); ++i) {
+      int uncut = 0;
+      for (const std::vector<float>& values : halfway) {
+        uncut += between(values[i], values[i - 1]) >= cutoff;
+        uncut += between(values[i], values[i + 1]) >= cutoff;
       }
       shares.values.push_back(uncut / 4.0);
     }

@@ -25,6 +25,12 @@ struct TexelWeights {
   std::vector<double> values;
 
   double at(int column, int row) const { return values[cellAt(column, row, width)]; }
+  // True if the four texels from this one on have one weight, which is not 0.
+  bool areEqual(int column, int row) const {
+    const double first = at(column, row);
+    return first > 0 && first == at(column + 1, row) && first == at(column, row + 1) &&
+           first == at(column + 1, row + 1);
+  }
 };
 
 // Returns the share of each texel's area in which the first channel of `mask`, looked up
