@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "core/index.h"
+#include "core/machine_limits.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -51,16 +53,17 @@ Albedo integrate(double cosine, double roughness) {
 
 LobeTable makeTable() {
   LobeTable table;
-  std::size_t i = 0;
-  for (int row = 0; row < kLobeSteps; ++row) {
-    for (int column = 0; column < kLobeSteps; ++column, ++i) {
+  parallelFor(usableThreads(), kLobeSteps, [&](std::size_t row, int) {
+    const double roughness = static_cast<double>(row) / (kLobeSteps - 1);
+    for (int column = 0; column < kLobeSteps; ++column) {
       const double root = column / (kLobeSteps - 1.0);
       const double cosine = std::max(root * root, 1e-4);
-      const Albedo albedo = integrate(cosine, row / (kLobeSteps - 1.0));
+      const Albedo albedo = integrate(cosine, roughness);
+      const std::size_t i = row * kLobeSteps + column;
       table.all[i] = static_cast<float>(albedo.all);
       table.grazing[i] = static_cast<float>(albedo.grazing);
     }
-  }
+  });
   return table;
 }
 

@@ -1,12 +1,15 @@
 #include "scene/light.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <vector>
 
 #include "core/index.h"
+#include "core/machine_limits.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -194,10 +197,12 @@ EnvironmentImage blurredSky(const Sky& sky) {
   constexpr int kWidth = 2 * kBlurRows;
   const EnvironmentImage source = sky.kind == Sky::Kind::image ? sky.image : columnOf(sky);
   EnvironmentImage blurred{kWidth, kBlurRows * kSkyBlurs, {}, {}, {}};
-  for (auto plane : {&EnvironmentImage::r, &EnvironmentImage::g, &EnvironmentImage::b}) {
-    blurred.*plane = shrunk(source.*plane, source, kWidth, kBlurRows);
-    blurred.*plane = blurs(blurred.*plane, kWidth);
-  }
+
+  constexpr std::array kPlanes{&EnvironmentImage::r, &EnvironmentImage::g, &EnvironmentImage::b};
+  parallelFor(usableThreads(), kPlanes.size(), [&](std::size_t i, int) {
+    const auto plane = kPlanes[i];
+    blurred.*plane = blurs(shrunk(source.*plane, source, kWidth, kBlurRows), kWidth);
+  });
   return blurred;
 }
 

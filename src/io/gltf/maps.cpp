@@ -123,19 +123,29 @@ auto blend(const RawImage& raw, const Between& column, const Between& row, const
 }
 
 // An image that is stretched to another size; white without an image.
-struct Stretched {
-  const RawImage* raw = nullptr;
-  std::vector<Between> columns, rows;
+class Stretched {
+ public:
+  Stretched() = default;
+  Stretched(const RawImage* raw, std::vector<Between> columns, std::vector<Between> rows)
+      : raw_(raw), columns_(std::move(columns)), rows_(std::move(rows)) {}
 
-  Rgb color(std::size_t x, std::size_t y) const {  // linear
-    if (!raw) return Rgb(1.0f);
-    return blend(*raw, columns[x], rows[y], [&](std::size_t i) { return linearPixel(*raw, i); });
+  // Fill a row of white texels with linear colors, or with a channel of valuesAt().
+  void fillColors(std::size_t y, std::vector<Rgb>& row) const {
+    fill(y, row, [this](std::size_t i) { return linearPixel(*raw_, i); });
   }
-  float value(std::size_t x, std::size_t y, std::size_t channel) const {  // of valuesAt()
-    if (!raw) return 1.0f;
-    return blend(*raw, columns[x], rows[y],
-                 [&](std::size_t i) { return valuesAt(*raw, i)[channel]; });
+  void fillValues(std::size_t y, std::size_t channel, std::vector<float>& row) const {
+    fill(y, row, [=, this](std::size_t i) { return valuesAt(*raw_, i)[channel]; });
   }
+
+ private:
+  template <typename Value, typename Read>
+  void fill(std::size_t y, std::vector<Value>& row, const Read& read) const {
+    if (!raw_) return;
+    for (const auto x : indices(row)) row[x] = blend(*raw_, columns_[x], rows_[y], read);
+  }
+
+  const RawImage* raw_ = nullptr;
+  std::vector<Between> columns_, rows_;
 };
 
 // Holds the mean of a channel of valuesAt().
@@ -274,8 +284,9 @@ BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warning
     const RawImage* const raw = images[i].get();
     const GltfTexture& own = m.*kBakeMaps[i];
     if (!raw) continue;
-    baked.stretched[i] = {raw, resample(raw->width, baked.width, 1, 0, own.wrapU, own.nearest),
-                          resample(raw->height, baked.height, 1, 0, own.wrapV, own.nearest)};
+    baked.stretched[i] =
+        Stretched(raw, resample(raw->width, baked.width, 1, 0, own.wrapU, own.nearest),
+                  resample(raw->height, baked.height, 1, 0, own.wrapV, own.nearest));
     if (!counts[i]) continue;
 
     // Texels of what is baked cannot follow all edges of others, nor two samplers.
@@ -302,47 +313,60 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
   Images maps = emptyMaps(m, images[kBase].get(), baked.sampler.value_or(m.baseMap), width, height);
 
-  // A base color that nothing dims is encoded as it is, which is faster.
-  std::optional<Texture>& diffuseMap = maps[kGltfDiffuse];
+  // Where a map has the base color as it is, an image of the same size is encoded faster.
   const RawImage* const own = images[kBase].get();
+  const auto copyOfBase = [&](GltfBakedMap map) {
+    const bool isCopied = maps[map] && own && own->width == width && own->height == height;
+    if (isCopied) maps[map]->texels = makeTexture(m.name, *own, maps[map]->format).texels;
+    return isCopied;
+  };
+  std::optional<Texture>& diffuseMap = maps[kGltfDiffuse];
+  std::optional<Texture>& specularMap = maps[kGltfSpecular];
+  std::optional<Texture>& transmissionMap = maps[kGltfTransmission];
   const bool isDimmed = m.mixesMetal() || m.variesTransmission();
-  const bool isPlain =
-      diffuseMap && own && !isDimmed && own->width == width && own->height == height;
-  if (isPlain) diffuseMap->texels = makeTexture(m.name, *own, diffuseMap->format).texels;
+  const bool mixesDiffuse = diffuseMap && (isDimmed || !copyOfBase(kGltfDiffuse));
+  const bool mixesSpecular = specularMap && (m.bakesSpecular() || !copyOfBase(kGltfSpecular));
 
   // Factors of the material follow from the means of the images.
   RgbD colors, tintSum;
   double metallic = 0, strengths = 0;
   std::size_t i = 0;
+  std::vector<Rgb> baseRow(width, Rgb(1.0f)), tintRow = baseRow;
+  std::vector<float> metalRow(width, 1.0f), strengthRow = metalRow, clearRow = metalRow;
 
   for (const auto y : indices(height)) {
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
-      const Rgb base = bases.color(x, y), tint = tints.color(x, y);
-      const float metalness = metals.value(x, y, 2), strength = speculars.value(x, y, 3);
-      const float metal = m.metallic * metalness;
+    bases.fillColors(y, baseRow);
+    tints.fillColors(y, tintRow);
+    metals.fillValues(y, 2, metalRow);
+    speculars.fillValues(y, 3, strengthRow);
+    clears.fillValues(y, 0, clearRow);
+
+    for (const auto x : indices(baseRow)) {
+      const Rgb base = baseRow[x], tint = tintRow[x];
+      const float strength = strengthRow[x], metal = m.metallic * metalRow[x];
 
       colors += RgbD(base);
-      metallic += metalness;
+      metallic += metalRow[x];
       strengths += strength;
       tintSum += RgbD(tint);
 
       // Only light that is neither reflected by metal nor transmitted is reflected diffusely.
-      const float clear = clears.value(x, y, 0), rest = 1 - metal;
-      if (diffuseMap && !isPlain) {
+      const float clear = clearRow[x], rest = 1 - metal;
+      if (mixesDiffuse) {
         const float blocked = m.variesTransmission() ? 1 - m.transmission * clear : 1;
         const Rgb diffuse = base * ((m.mixesMetal() ? rest : 1) * blocked);
         diffuseMap->texels[i] = encodeTexel(diffuse, diffuseMap->format);
       }
 
-      if (maps[kGltfTransmission]) {
-        maps[kGltfTransmission]->texels[i] = encodeColorTexel(base * (clear * rest));
-      }
+      if (transmissionMap) transmissionMap->texels[i] = encodeColorTexel(base * (clear * rest));
 
       // F0 is blended between the dielectric's and the base color of the metal.
-      if (!maps[kGltfSpecular]) continue;
-      const Rgb f0 =
-          m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
-      maps[kGltfSpecular]->texels[i] = encodeColorTexel(f0);
+      if (mixesSpecular) {
+        const Rgb f0 =
+            m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
+        specularMap->texels[i] = encodeColorTexel(f0);
+      }
+      ++i;
     }
   }
 
