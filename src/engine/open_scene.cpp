@@ -42,8 +42,10 @@ std::string noLightWarning(const Scene& scene) {
   for (const Effect effect : {Effect::lights, Effect::sky, Effect::ambient, Effect::emission}) {
     if (scene.effects.has(effect)) return "";
   }
+  if (scene.effects.has(Effect::fog) && scene.fog.color != Rgb(0.0f)) return "";
   return scene.name +
-         " is black: it has no lights, no sky, no ambient light and no emissive surface";
+         " is black: it has no lights, no sky, no ambient light, no emissive surface and no "
+         "colored fog";
 }
 
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,

@@ -100,6 +100,12 @@ TEST_F(Program, SaysThatASceneIsDark) {
   };
   EXPECT_TRUE(hasText(errorsOf(black), "black is black: it has no lights"));
   EXPECT_FALSE(hasText(errorsOf(folder_ / "tiny.json"), "is black"));
+
+  // Fog with a color is light, too.
+  const std::string foggy = folder_ / "foggy.json";
+  std::ofstream(foggy) << text.insert(text.find('{') + 1,
+                                      R"("fog": {"density": 0.1, "color": [0.2, 0.4, 0.6]},)");
+  EXPECT_FALSE(hasText(errorsOf(foggy), "is black"));
 }
 
 TEST_F(Program, SaysThatFrostedGlassIsShownClear) {
