@@ -16,7 +16,9 @@ namespace whit {
 
 namespace {
 
-constexpr int kLongSide = 64, kDepth = 8;
+// Pixels on the long side of the picture that is measured, and of the one for highlights: these are
+// small and few, so that fewer pixels would meet them in one view and miss them in the next.
+constexpr int kLongSide = 64, kLongSideForHighlights = 192, kDepth = 8;
 // Levels are those of the picture, after the tone curve. The mean of the surfaces becomes kMiddle.
 constexpr double kMiddle = 0.3;
 // This share of the surfaces' pixels stays below kBright, and this share of all pixels below
@@ -27,8 +29,8 @@ constexpr double kBrightShare = 0.93, kBright = 0.95, kClearShare = 0.8, kClear 
 constexpr double kSky = 0.5, kMostForSky = 2;
 // For this share of a model's pixels, the brightest channel stays below the code 255, unless the
 // picture would then be more than kMostForHighlights EV darker. The bound is stricter than what is
-// promised (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
-constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights = 3;
+// promised (0.5 % of the model), because not all pixels are looked at and the exposure is rounded.
+constexpr double kUnclippedShare = 0.996, kUnclipped = 0.95, kMostForHighlights = 3;
 constexpr double kDarkest = 1.0e-2;  // share of the bright ones' level; darker pixels count as this
 constexpr double kSteps = 8;         // steps in an EV
 constexpr double kMostEv = 32;
@@ -37,56 +39,79 @@ constexpr auto kNothing = PixelSurface::kNothing;
 struct Luminances {
   std::vector<double> surfaces, sky;  // luminances of the pixels that show the one or the other
   std::vector<double> channels;       // the brightest channel of each pixel of a surface
+
+  void append(const Luminances& more) {
+    surfaces.insert(surfaces.end(), more.surfaces.begin(), more.surfaces.end());
+    sky.insert(sky.end(), more.sky.begin(), more.sky.end());
+    channels.insert(channels.end(), more.channels.begin(), more.channels.end());
+  }
 };
 
-Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
-  const Scene& scene = renderer.scene();
-  const int longer = std::max(scene.width, scene.height);
-  const auto side = [&](int of) { return std::max(1, (of * kLongSide + longer / 2) / longer); };
-  const int width = side(scene.width), height = side(scene.height);
+// The scalar reference's pictures of a view. It and fixed settings make the exposure independent of
+// how the picture is computed.
+class SmallPictures {
+ public:
+  SmallPictures(const Renderer& renderer, const Camera& camera)
+      : scene_(renderer.scene()),
+        camera_(camera),
+        settings_(settingsOf(renderer)),
+        intersector_(renderer.accel()),
+        tracer_(scene_, intersector_, settings_) {}
 
-  // Fixed settings and the scalar reference make the exposure independent of how the picture is
-  // computed.
-  reference::Settings settings;
-  settings.options.depth = kDepth;
-  settings.options.disable = renderer.options().disable;
-  settings.threads = renderer.machine().threads;
-  settings.effects = makePlan(scene, settings.options).effects;
+  // Measures the picture with that many pixels on its long side.
+  Luminances measure(int longSide, bool withSky) const {
+    const int longer = std::max(scene_.width, scene_.height);
+    const auto side = [&](int of) { return std::max(1, (of * longSide + longer / 2) / longer); };
+    const CameraFrame frame = frameWithMedia(scene_, settings_.effects, intersector_, camera_,
+                                             side(scene_.width), side(scene_.height), 1);
 
-  const EmbreeIntersector intersector(renderer.accel());
-  const reference::Tracer tracer(scene, intersector, settings);
-  const CameraFrame frame =
-      frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
-
-  // Rows are joined in order, so that the result does not depend on the threads.
-  std::vector<Luminances> rows(height);
-  parallelFor(settings.threads, rows.size(), [&](std::size_t row, int) {
-    reference::RayCounts counts;
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width; ++x) {
-      const Rgb pixel(tracer.center(frame, x, y, counts));
-      const double l = luminance(pixel);
-      if (!(l >= 0) || !std::isfinite(l)) continue;
-
-      const std::uint32_t material = tracer.surfaceAtCenter(frame, x, y).material;
-      if (material == kNothing || scene.materials[material].name == kGroundShadowName) {
-        rows[row].sky.push_back(l);
-      } else {
-        rows[row].surfaces.push_back(l);
-        rows[row].channels.push_back(double{maxComponent(pixel)});
+    // Rows are joined in order, so that the result does not depend on the threads.
+    std::vector<Luminances> rows(frame.height);
+    parallelFor(settings_.threads, rows.size(), [&](std::size_t row, int) {
+      for (int x = 0; x < frame.width; ++x) {
+        measurePixel(frame, x, static_cast<int>(row), withSky, rows[row]);
       }
-    }
-  });
+    });
 
-  Luminances all;
-  for (const Luminances& row : rows) {
-    all.surfaces.insert(all.surfaces.end(), row.surfaces.begin(), row.surfaces.end());
-    all.sky.insert(all.sky.end(), row.sky.begin(), row.sky.end());
-    all.channels.insert(all.channels.end(), row.channels.begin(), row.channels.end());
+    Luminances all;
+    for (const Luminances& row : rows) all.append(row);
+    return all;
   }
 
-  return all;
-}
+ private:
+  static reference::Settings settingsOf(const Renderer& renderer) {
+    reference::Settings settings;
+    settings.options.depth = kDepth;
+    settings.options.disable = renderer.options().disable;
+    settings.threads = renderer.machine().threads;
+    settings.effects = makePlan(renderer.scene(), settings.options).effects;
+    return settings;
+  }
+
+  void measurePixel(const CameraFrame& frame, int x, int y, bool withSky, Luminances& row) const {
+    const std::uint32_t material = tracer_.surfaceAtCenter(frame, x, y).material;
+    const bool isSky = material == kNothing || scene_.materials[material].name == kGroundShadowName;
+    if (isSky && !withSky) return;
+
+    reference::RayCounts counts;
+    const Rgb pixel(tracer_.center(frame, x, y, counts));
+    const double l = luminance(pixel);
+    if (!(l >= 0) || !std::isfinite(l)) return;
+
+    if (isSky) {
+      row.sky.push_back(l);
+    } else {
+      row.surfaces.push_back(l);
+      row.channels.push_back(double{maxComponent(pixel)});
+    }
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  reference::Settings settings_;
+  EmbreeIntersector intersector_;
+  reference::Tracer tracer_;
+};
 
 // Log2 of the exposed luminance that the tone curve turns into `level`.
 double exposed(ToneCurve curve, double level) {
@@ -107,7 +132,8 @@ double exposed(ToneCurve curve, double level) {
 }  // namespace
 
 float exposureFor(const Renderer& renderer, const Camera& camera) {
-  auto [surfaces, sky, channels] = luminancesOf(renderer, camera);
+  const SmallPictures pictures(renderer, camera);
+  auto [surfaces, sky, channels] = pictures.measure(kLongSide, /*withSky=*/true);
   const auto curve = renderer.options().toneCurve;
   const double bright = quantile(surfaces, kBrightShare), middleOfSky = quantile(sky, 0.5);
   if (!(bright > 0)) return 0;
@@ -133,6 +159,7 @@ float exposureFor(const Renderer& renderer, const Camera& camera) {
 
   // The highlights of a model keep their shape.
   if (renderer.scene().isModel) {
+    channels = pictures.measure(kLongSideForHighlights, /*withSky=*/false).channels;
     const double highlight = quantile(channels, kUnclippedShare);
     ev = std::clamp(exposed(curve, kUnclipped) - std::log2(highlight), ev - kMostForHighlights, ev);
   }
