@@ -1,5 +1,6 @@
 // Cameras, lights, sky, materials and textures of scene files.
 #include "has_text.h"
+#include "io/scene/scene_sections.h"
 #include "make/studio_sky.h"
 #include "scene/texture.h"
 #include "scene_files.h"
@@ -126,10 +127,34 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
             at + "/elevations/0");
 
   // Members of other projections are unknown, except fov.
-  EXPECT_EQ(error(R"("projection": "panorama", "fov": 40)"), "no error");
   for (const char* member : {"\"aperture\": 1", "\"orthographicHeight\": 1", "\"k\": [1, 1, 0, 0]",
                              "\"azimuths\": [1]"}) {
     EXPECT_TRUE(hasText(error(std::string(R"("projection": "panorama", )") + member), "unknown"));
+  }
+}
+
+// A fov that does nothing is told, so that --set may change the projection of any camera alone.
+TEST_F(SceneSections, FovsThatDoNothingAreTold) {
+  const char* const kUnused =
+      "fov of a camera with k, orthographicHeight or another projection does nothing";
+  const auto toldOf = [&](const std::string& members) {
+    Warnings warnings;
+    const std::string camera = "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5]" + members;
+    const std::string file = save("s.json", "{\"whit\": 1, \"scene\": [], " + camera + "}}}");
+    const Json described = describe(loadScene(file, options_, warnings).cameras.at(0));
+    const auto entries = warnings.entries();
+    const auto told = entries.find(kUnused);
+    EXPECT_EQ(described.contains("fov"), told == entries.end()) << members;
+    return told == entries.end() ? "" : told->second.first;
+  };
+
+  EXPECT_EQ(toldOf(R"(, "fov": 40)"), "");
+  EXPECT_EQ(toldOf(R"(, "fov": 40, "orthographicHeight": 0)"), "");
+  EXPECT_EQ(toldOf(R"(, "projection": "perspective")"), "");
+  for (const char* other : {R"("projection": "panorama")", R"("orthographicHeight": 2)",
+                            R"("k": [5, 5, 2, 2], "kSize": [4, 4])"}) {
+    EXPECT_TRUE(hasText(toldOf(std::string(", \"fov\": 40, ") + other), "s.json#/cameras/a/fov"))
+        << other;
   }
 }
 
