@@ -95,22 +95,21 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
 
   // The intrinsic matrix and the distortion of a lens.
   EXPECT_EQ(error(R"("k": [5, 5, 2], "kSize": [4, 4])"),
-            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
-                 "list of 3");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found "
+                 "[5,5,2]");
   EXPECT_EQ(error(R"("k": [5, 0, 2, 2], "kSize": [4, 4])"),
-            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
-                 "list of 4");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found "
+                 "[5,0,2,2]");
   EXPECT_EQ(error(R"("k": [5, 5, "x", 2])").substr(0, at.size() + 5), at + "/k/2:");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2])"), at + ": expected a member \"kSize\"");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [4])"),
-            at + "/kSize: expected the [width, height] of the picture that k is for, found a list "
-                 "of 1");
+            at + "/kSize: expected the [width, height] of the picture that k is for, found [4]");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [0, 4])").substr(0, at.size() + 9),
             at + "/kSize/0:");
   EXPECT_EQ(
       error(
           R"("projection": "fisheye", "k": [5, 5, 2, 2], "kSize": [4, 4], "distortion": [0, 0, 0, 0, 1])"),
-      at + "/distortion: expected at most 4 coefficients, found a list of 5");
+      at + "/distortion: expected at most 4 coefficients, found [0,0,0,0,1]");
   EXPECT_EQ(error(R"("distortion": [0.1], "orthographicHeight": 2)"),
             at + ": expected no orthographicHeight beside k or distortion, found an object of 4");
 
@@ -190,7 +189,7 @@ TEST_F(SceneSections, OptionsThatAreNone) {
   EXPECT_EQ(error("\"disable\": \"mirrr\""),
             "3 s.json#/options/disable: no effect is called 'mirrr'; did you mean 'mirror'?");
   EXPECT_EQ(error("\"spp\": [4]"),
-            "3 s.json#/options/spp: expected a number, a word, true or false, found a list of 1");
+            "3 s.json#/options/spp: expected a number, a word, true or false, found [4]");
   EXPECT_EQ(errorOfMembers("\"options\": 4"), "3 s.json#/options: expected an object, found 4");
 }
 
