@@ -45,6 +45,7 @@ class BenchRun {
     const std::vector<double> after = readCounters(processorCounters());
     summary_.events.resize(std::min(before.size(), after.size()));
     for (const auto i : indices(summary_.events)) summary_.events[i] += after[i] - before[i];
+    if (summary_.events.empty()) summary_.noEvents = reasonOfNoCounts(processorCounters());
 
     summary_.imageHash = digestOf(film_.image);
     if (floor)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,8 +24,11 @@ inline constexpr std::array<PerfEvent, 3> kProcessorEvents{
      {"cache_misses", PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES}}};
 
 // Returns the files of counters that count in user space, from now on and for as long as the
-// program runs, for the calling thread and all threads that it starts later.
+// program runs, for the calling thread and all threads that it starts later. A counter that the
+// kernel refuses is the negative number of the error in place of a file.
 std::vector<int> openCounters(std::span<const PerfEvent> events);
+// Says why the counters have no counts.
+std::string reasonOfNoCounts(const std::vector<int>& files);
 // Returns the counts up to now, one for each file. Empty if the kernel or the machine does not
 // count all of the events all the time.
 std::vector<double> readCounters(const std::vector<int>& files);

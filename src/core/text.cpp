@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/index.h"
 
@@ -43,26 +43,6 @@ std::size_t printableBytes(const std::string& text, std::size_t at) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
   }
   return form->length;
-}
-
-// Damerau's edit distance (1964), by dynamic programming: two neighbors that changed places count
-// as one edit.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> older, old, row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-
-  for (const auto i : indices(a)) {
-    older = std::exchange(old, row);
-    row[0] = i + 1;
-    for (const auto j : indices(b)) {
-      row[j + 1] = std::min({old[j] + (a[i] == b[j] ? 0 : 1), row[j] + 1, old[j + 1] + 1});
-      // A transposition refers to the row before the last one.
-      const bool swapped = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
-      if (swapped) row[j + 1] = std::min(row[j + 1], older[j - 1] + 1);
-    }
-  }
-
-  return row[b.size()];
 }
 
 // Options of other programs and of former versions, and their names here. A name may be followed by

@@ -15,7 +15,9 @@ namespace whit {
 
 namespace {
 
-constexpr int kLongSide = 64, kDepth = 8;
+// Pixels on the long side of the picture that is measured. The highlights of models are small and
+// few, so that fewer pixels would meet them in one view and miss them in the next.
+constexpr int kLongSide = 64, kLongSideOfModels = 192, kDepth = 8;
 // Levels are those of the picture, after the tone curve. The mean of the surfaces becomes kMiddle.
 constexpr double kMiddle = 0.3;
 // This share of the surfaces' pixels stays below kBright, and this share of all pixels below
@@ -26,8 +28,8 @@ constexpr double kBrightShare = 0.93, kBright = 0.95, kClearShare = 0.8, kClear 
 constexpr double kSky = 0.5, kMostForSky = 2;
 // For this share of a model's pixels, the brightest channel stays below the code 255, unless the
 // picture would then be more than kMostForHighlights EV darker. The bound is stricter than what is
-// promised (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
-constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights = 3;
+// promised (0.5 % of the model), because not all pixels are looked at and the exposure is rounded.
+constexpr double kUnclippedShare = 0.996, kUnclipped = 0.95, kMostForHighlights = 3;
 constexpr double kDarkest = 1.0e-2;  // share of the bright ones' level; darker pixels count as this
 constexpr double kSteps = 8;         // steps in an EV
 constexpr double kMostEv = 32;
@@ -42,7 +44,8 @@ struct Luminances {
 Luminances luminancesOf(Renderer& renderer, const Camera& camera) {
   const Scene& scene = renderer.scene();
   const int longer = std::max(scene.width, scene.height);
-  const auto side = [&](int of) { return std::max(1, (of * kLongSide + longer / 2) / longer); };
+  const int longSide = scene.isModel ? kLongSideOfModels : kLongSide;
+  const auto side = [&](int of) { return std::max(1, (of * longSide + longer / 2) / longer); };
 
   const RenderOptions asked = renderer.options();
   RenderOptions fixed;

@@ -90,13 +90,17 @@ std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
   return folders;
 }
 
-std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
+// The names of files that end so, as findScene() takes them: those of models keep the ending.
+std::vector<std::string> shippedNames(const std::vector<fs::path>& folders,
+                                      const std::vector<std::string>& extensions) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {
     std::error_code error;
     for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-      const bool isScene = i->path().extension() == ".json" && i->is_regular_file(error);
-      if (isScene) names.push_back(i->path().stem().string());
+      const fs::path& file = i->path();
+      const std::string extension = file.extension().string();
+      if (!contains(extensions, extension) || !i->is_regular_file(error)) continue;
+      names.push_back((extension == ".json" ? file.stem() : file.filename()).string());
     }
   }
 
@@ -294,7 +298,7 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   if (fs::is_directory(path, error)) {
     throwUsage("'" + file + "' is a folder: name a scene file or a model in it");
   }
-  const std::vector<std::string> names = shippedNames(folders);
+  const std::vector<std::string> names = shippedNames(folders, {".json", ".glb"});
   throwUsage("no scene is called '" + file + "'" +
              (names.empty() ? " (no scenes found; is $WHIT_SCENES set?)"
                             : didYouMean(file, names, "scene")));
@@ -302,7 +306,9 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
 
 std::vector<fs::path> shippedScenes() {
   std::vector<fs::path> scenes;
-  for (const std::string& name : shippedNames(sceneFolders())) scenes.push_back(findScene(name));
+  for (const std::string& name : shippedNames(sceneFolders(), {".json"})) {
+    scenes.push_back(findScene(name));
+  }
   return scenes;
 }
 

@@ -140,7 +140,12 @@ void JsonValue::fail(const std::string& expected, std::string found) const {
 
 std::string JsonValue::found() const {
   if (!exists()) return "nothing";
-  if (isObject() || isArray()) {
+
+  // Elements of structured values, and of long lists, are counted.
+  constexpr std::size_t kShown = 8;
+  const auto isStructured = [](const Json& element) { return element.is_structured(); };
+  const bool isShort = value_->size() <= kShown && std::ranges::none_of(*value_, isStructured);
+  if (isObject() || (isArray() && !isShort)) {
     return concat(std::string(isObject() ? "an object" : "a list"), " of ", value_->size());
   }
   return excerpt(value_->dump(-1, ' ', false, Json::error_handler_t::replace));

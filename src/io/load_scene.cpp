@@ -353,6 +353,18 @@ void readLightSettings(const LoadOptions& options, JsonDocument& document, JsonO
   readLights(file, {}, scene);
 }
 
+// A camera may state a fov that it does not use, so that --set changes its projection alone.
+void noteUnusedFovs(JsonObject& file, SceneContext& context) {
+  const auto cameras = file.find("cameras").members();
+  for (const auto i : indices(cameras)) {
+    const JsonValue fov = cameras[i].second["fov"];
+    if (!fov || seesByFov(context.scene.cameras[i])) continue;
+    context.warnings.note(
+        "fov of a camera with k, orthographicHeight or another projection does nothing",
+        fov.where());
+  }
+}
+
 // Models and views have cameras of their own, and the camera "path" flies the scene's path.
 void requireCamera(const std::string& camera, JsonObject& file, const SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.cameras);
@@ -366,6 +378,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   file.need("whit");
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
+  noteUnusedFovs(file, context);
   requireCamera(options.camera, file, context.scene);
   if (context.scene.cameras.empty()) takeSize(options, context.scene);
   readLights(file, options.instant, context.scene);

@@ -208,6 +208,9 @@ std::string stageTable(const RunSummary& run) {
   for (const auto i : indices(perRay)) {
     text += formatted("  %s a ray %.4g\n", kProcessorEvents[i].name.data(), perRay[i]);
   }
+  if (!run.noEvents.empty()) {
+    text += "  instructions, cycles and cache misses a ray are not counted: " + run.noEvents + "\n";
+  }
 
   return run.otherTasks.empty() ? text : text + loadText(run);
 }

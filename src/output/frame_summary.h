@@ -26,6 +26,7 @@ struct RunSummary {
   std::vector<double> floorMs;     // empty without --floor
   // Sums over the frames of kProcessorEvents; empty where they were not counted.
   std::vector<double> events;
+  std::string noEvents;  // why they were not counted; empty if they were, or nobody asked
   // Tasks of other programs that wanted a processor before each frame; empty if nobody looked.
   std::vector<double> otherTasks;
   int processors = 0;     // number of the machine's processors

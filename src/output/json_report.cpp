@@ -75,6 +75,7 @@ void addFrames(const RunSummary& run, Json& json) {
   for (const auto i : indices(perRay)) {
     json["per_ray"][std::string(kProcessorEvents[i].name)] = perRay[i];
   }
+  if (!run.noEvents.empty()) json.update({{"per_ray", nullptr}, {"no_per_ray", run.noEvents}});
 
   if (!run.otherTasks.empty()) json["other_tasks"] = quantile(run.otherTasks, 0.5);
   if (!run.updateMs.empty()) json["updateScene_ms"] = quantile(run.updateMs, 0.5);

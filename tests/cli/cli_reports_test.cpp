@@ -123,6 +123,15 @@ TEST(StageTable, HasTheseWords) {
                 "  instructions a ray 750\n"
                 "  cycles a ray 500\n"
                 "  cache_misses a ray 0.25\n");
+
+  // Counters that do not count say why.
+  run.events.clear();
+  run.noEvents = "the kernel forbids it";
+  EXPECT_TRUE(hasText(stageTable(run),
+                      "\n  instructions, cycles and cache misses a ray are not counted: the kernel "
+                      "forbids it\n"));
+  EXPECT_EQ(runJson(run)["per_ray"], nullptr);
+  EXPECT_EQ(runJson(run)["no_per_ray"], run.noEvents);
 }
 
 // The same in the JSON.

@@ -17,7 +17,7 @@ struct DeadEnd {
 };
 
 constexpr int kUsage = 2, kBadScene = 3, kIo = 4, kLimit = 5;
-constexpr const char* kAllScenes = "every scene there is: atrium, cornell";
+constexpr const char* kAllScenes = "every scene there is: atrium, chess.glb, cornell";
 constexpr const char* kSizes = "expected WIDTHxHEIGHT in pixels";
 constexpr const char* kColors =
     "expected sky, transparent, white, black, or digits as ff8000 or #fff";
@@ -40,6 +40,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render nope", kUsage, kAllScenes},
     {"render .", kUsage, "'.' is a folder: name a scene file or a model in it"},
     {"render witted", kUsage, "did you mean 'whitted'?"},
+    {"render chess", kUsage, "no scene is called 'chess'; did you mean 'chess.glb'?"},
     {"render nope.glb", kIo, "cannot open nope.glb: no such file"},
     {"serve --set /lights/0/intensity=4", kUsage, "expected SCENE beside --animation"},
     {"render ?level=2", kUsage, "expected a scene file, a model or the name of a shipped scene"},
@@ -212,6 +213,9 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render whitted -o x.normal.exr --channels depth,normal", kUsage, "an EXR to keep depth in"},
     {"render whitted -o x.position.png", kUsage, "positions do not fit into a PNG"},
     {"render whitted -o x.motion.png", kUsage, "motions do not fit into a PNG"},
+    {"render whitted -o x.depht.png", kUsage,
+     "no channel is called 'depht'; did you mean 'depth'?"},
+    {"render whitted -o x.Normals.##.exr --frames 0..1", kUsage, "did you mean 'normal'?"},
     {"render whitted -o x.exr --channels depth --exr dwaa", kUsage, "dwaa is lossy for channels"},
     {"render whitted -o x.exr --channels deepth", kUsage, "did you mean 'depth'?"},
     {"turntable whitted", kUsage, "expected a file to write"},

@@ -77,11 +77,11 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
 
       // Nodes, materials and scenes.
       {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1,2]}",
-       "#/nodes/0/scale: expected 3 numbers, found a list of 2"},
+       "#/nodes/0/scale: expected 3 numbers, found [1,2]"},
       {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1]}",
-       "#/nodes/0/matrix: expected 16 numbers, found a list of 1"},
+       "#/nodes/0/matrix: expected 16 numbers, found [1]"},
       {"[1,1,1,1]", "[1,1,1]",
-       "#/materials/0/pbrMetallicRoughness/baseColorFactor: expected 4 numbers, found a list of 3"},
+       "#/materials/0/pbrMetallicRoughness/baseColorFactor: expected 4 numbers, found [1,1,1]"},
       {"{\"mesh\":0}", "{\"mesh\":0},7", "#/nodes/1: expected an object, found 7"},
       {"\"scene\":0", "\"scene\":3",
        "#/scene: expected an index into scenes, from 0 to 0, found 3"},

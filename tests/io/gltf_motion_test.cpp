@@ -491,7 +491,7 @@ TEST_F(GltfSkin, BrokenSkinsAreRefused) {
       {"\"joints\":[1,2]", "\"joints\":[1,7]",
        "#/skins/0/joints/1: expected an index into nodes, from 0 to 2, found 7"},
       {"\"joints\":[1,2]", "\"joints\":[]",
-       "#/skins/0/joints: expected at least one joint, found a list of 0"},
+       "#/skins/0/joints: expected at least one joint, found []"},
       {"\"joints\":[1,2]", "\"joints\":5", "#/skins/0/joints: expected a list, found 5"},
       {"\"inverseBindMatrices\":3", "\"inverseBindMatrices\":0",
        "#/accessors/0/type: expected MAT4, found \"VEC3\""},

@@ -87,15 +87,15 @@ TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
   };
 
   EXPECT_EQ(error("{\"scale\": [1,0,1]}"),
-            "3 s.json#/scene/0/transform/scale: expected a scale other than 0, found a list of 3");
+            "3 s.json#/scene/0/transform/scale: expected a scale other than 0, found [1,0,1]");
   EXPECT_EQ(error("{\"rotate\": [0,0,0,90]}"),
-            "3 s.json#/scene/0/transform/rotate: expected an axis other than 0, found a list of 4");
+            "3 s.json#/scene/0/transform/rotate: expected an axis other than 0, found [0,0,0,90]");
   EXPECT_EQ(error("{\"matrix\": [1,0,0,0, 1,0,0,0, 0,0,1,0]}"),
             "3 s.json#/scene/0/transform: expected a transform that can be undone, found an object "
             "of 1");
   EXPECT_EQ(error("{\"matrix\": [1,0,0,0], \"scale\": 2}"),
             "3 s.json#/scene/0/transform/matrix: expected 12 numbers: a matrix of 3 rows of 4, "
-            "found a list of 4");
+            "found [1,0,0,0]");
 
   // A matrix excludes the other members.
   EXPECT_EQ(error("{\"scale\": 2, \"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0]}"),
@@ -125,7 +125,8 @@ TEST_F(SceneItems, GroupsAndRepeats) {
 TEST_F(SceneItems, RepeatsAreLimited) {
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"repeat\": {\"count\": "
                            "[10000,10000,10000], \"step\": [1,1,1]}}]"),
-            "3 s.json#/scene/0/repeat/count: expected at most 10000000 copies, found a list of 3");
+            "3 s.json#/scene/0/repeat/count: expected at most 10000000 copies, found "
+            "[10000,10000,10000]");
 
   options_.maxMemoryBytes = 1 << 20;
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"quad\", \"repeat\": {\"count\": "

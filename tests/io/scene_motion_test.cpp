@@ -195,19 +195,19 @@ TEST_F(SceneMotionFile, MistakesAreNamed) {
   const auto error = [&](const std::string& motion) { return errorOfMembers(scene(item(motion))); };
   const std::string place = "3 s.json#/scene/0/motion/keys";
 
-  EXPECT_EQ(error("\"keys\": []"), place + ": expected at least one key, found a list of 0");
+  EXPECT_EQ(error("\"keys\": []"), place + ": expected at least one key, found []");
   EXPECT_EQ(error("\"keys\": [{}]"), place + "/0: expected a member \"time\"");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1}, {\"time\": 1}]"),
             place + "/1/time: expected a time after that of the key before, found 1");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"scale\": [1, 0, 1]}]"),
-            place + "/0/scale: expected a scale above 0, found a list of 3");
+            place + "/0/scale: expected a scale above 0, found [1,0,1]");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"rotate\": [0, 0, 0, 1]}]"),
-            place + "/0/rotate: expected an axis other than 0, found a list of 4");
+            place + "/0/rotate: expected an axis other than 0, found [0,0,0,1]");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"rotate\": [0, 0, 1, 1]}, {\"time\": 2, \"rotate\": "
                   "[0, 1, 0, 1]}]"),
             place +
                 "/1/rotate: expected the axis of the keys before: groups turn about several, found "
-                "a list of 4");
+                "[0,1,0,1]");
 
   EXPECT_EQ(error("\"keys\": [{\"time\": 1}], \"interpolation\": \"cubik\""),
             "3 s.json#/scene/0/motion/interpolation: expected one of \"linear\", \"step\", "

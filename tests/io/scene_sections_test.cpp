@@ -1,5 +1,6 @@
 // Cameras, lights, sky, materials and textures of scene files.
 #include "has_text.h"
+#include "io/scene/scene_sections.h"
 #include "make/studio_sky.h"
 #include "scene/texture.h"
 #include "scene_files.h"
@@ -94,22 +95,21 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
 
   // The intrinsic matrix and the distortion of a lens.
   EXPECT_EQ(error(R"("k": [5, 5, 2], "kSize": [4, 4])"),
-            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
-                 "list of 3");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found "
+                 "[5,5,2]");
   EXPECT_EQ(error(R"("k": [5, 0, 2, 2], "kSize": [4, 4])"),
-            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
-                 "list of 4");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found "
+                 "[5,0,2,2]");
   EXPECT_EQ(error(R"("k": [5, 5, "x", 2])").substr(0, at.size() + 5), at + "/k/2:");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2])"), at + ": expected a member \"kSize\"");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [4])"),
-            at + "/kSize: expected the [width, height] of the picture that k is for, found a list "
-                 "of 1");
+            at + "/kSize: expected the [width, height] of the picture that k is for, found [4]");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [0, 4])").substr(0, at.size() + 9),
             at + "/kSize/0:");
   EXPECT_EQ(
       error(
           R"("projection": "fisheye", "k": [5, 5, 2, 2], "kSize": [4, 4], "distortion": [0, 0, 0, 0, 1])"),
-      at + "/distortion: expected at most 4 coefficients, found a list of 5");
+      at + "/distortion: expected at most 4 coefficients, found [0,0,0,0,1]");
   EXPECT_EQ(error(R"("distortion": [0.1], "orthographicHeight": 2)"),
             at + ": expected no orthographicHeight beside k or distortion, found an object of 4");
 
@@ -126,10 +126,34 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
             at + "/elevations/0");
 
   // Members of other projections are unknown, except fov.
-  EXPECT_EQ(error(R"("projection": "panorama", "fov": 40)"), "no error");
   for (const char* member : {"\"aperture\": 1", "\"orthographicHeight\": 1", "\"k\": [1, 1, 0, 0]",
                              "\"azimuths\": [1]"}) {
     EXPECT_TRUE(hasText(error(std::string(R"("projection": "panorama", )") + member), "unknown"));
+  }
+}
+
+// A fov that does nothing is told, so that --set may change the projection of any camera alone.
+TEST_F(SceneSections, FovsThatDoNothingAreTold) {
+  const char* const kUnused =
+      "fov of a camera with k, orthographicHeight or another projection does nothing";
+  const auto toldOf = [&](const std::string& members) {
+    Warnings warnings;
+    const std::string camera = "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5]" + members;
+    const std::string file = save("s.json", "{\"whit\": 1, \"scene\": [], " + camera + "}}}");
+    const Json described = describe(loadScene(file, options_, warnings).cameras.at(0));
+    const auto entries = warnings.entries();
+    const auto told = entries.find(kUnused);
+    EXPECT_EQ(described.contains("fov"), told == entries.end()) << members;
+    return told == entries.end() ? "" : told->second.first;
+  };
+
+  EXPECT_EQ(toldOf(R"(, "fov": 40)"), "");
+  EXPECT_EQ(toldOf(R"(, "fov": 40, "orthographicHeight": 0)"), "");
+  EXPECT_EQ(toldOf(R"(, "projection": "perspective")"), "");
+  for (const char* other : {R"("projection": "panorama")", R"("orthographicHeight": 2)",
+                            R"("k": [5, 5, 2, 2], "kSize": [4, 4])"}) {
+    EXPECT_TRUE(hasText(toldOf(std::string(", \"fov\": 40, ") + other), "s.json#/cameras/a/fov"))
+        << other;
   }
 }
 
@@ -165,7 +189,7 @@ TEST_F(SceneSections, OptionsThatAreNone) {
   EXPECT_EQ(error("\"disable\": \"mirrr\""),
             "3 s.json#/options/disable: no effect is called 'mirrr'; did you mean 'mirror'?");
   EXPECT_EQ(error("\"spp\": [4]"),
-            "3 s.json#/options/spp: expected a number, a word, true or false, found a list of 1");
+            "3 s.json#/options/spp: expected a number, a word, true or false, found [4]");
   EXPECT_EQ(errorOfMembers("\"options\": 4"), "3 s.json#/options: expected an object, found 4");
 }
 

@@ -30,7 +30,7 @@ TEST_F(SceneSyntax, NumbersBeyondDoubleHaveTheirPlace) {
 
 TEST_F(SceneSyntax, TheVersionIsRequired) {
   EXPECT_EQ(errorOfScene("{}"), "3 s.json#: expected a member \"whit\"");
-  EXPECT_EQ(errorOfScene("[1]"), "3 s.json#: expected an object, found a list of 1");
+  EXPECT_EQ(errorOfScene("[1]"), "3 s.json#: expected an object, found [1]");
   EXPECT_EQ(errorOfScene("{\"whit\": 2}"), "3 s.json#/whit: expected 1, found 2");
 }
 
@@ -94,8 +94,7 @@ TEST_F(SceneSyntax, MembersAreLimited) {
 }
 
 TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
-  EXPECT_EQ(errorOfMembers("\"size\": [1]"),
-            "3 s.json#/size: expected [width, height], found a list of 1");
+  EXPECT_EQ(errorOfMembers("\"size\": [1]"), "3 s.json#/size: expected [width, height], found [1]");
   EXPECT_EQ(errorOfMembers("\"size\": [1.5, 1]"),
             "3 s.json#/size/0: expected a whole number from 1 to 65536, found 1.5");
 
@@ -106,7 +105,7 @@ TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
   EXPECT_EQ(errorOfMembers("\"sky\": {\"radiance\": 1, \"scale\": -1}"),
             "3 s.json#/sky/scale: expected a number from 0 to 1e+18, found -1");
   EXPECT_EQ(errorOfMembers("\"sky\": {\"radiance\": 1, \"scale\": []}"),
-            "3 s.json#/sky/scale: expected a number not below 0, found a list of 0");
+            "3 s.json#/sky/scale: expected a number not below 0, found []");
 
   EXPECT_EQ(errorOfMembers("\"materials\": {\"m\": {\"diffuse\": [1, 2, 0]}}"),
             "3 s.json#/materials/m/diffuse/1: expected a number from 0 to 1, found 2");

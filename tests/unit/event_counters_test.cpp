@@ -40,7 +40,19 @@ TEST(EventCounters, CountWhatLaterThreadsDo) {
 TEST(EventCounters, AreEmptyWhereThereAreNone) {
   constexpr PerfEvent kUnknown{"unknown", PERF_TYPE_SOFTWARE, 1u << 20};
   const std::array events{kPageFaults, kUnknown};
-  EXPECT_TRUE(readCounters(openCounters(events)).empty());
+  const std::vector<int> files = openCounters(events);
+  EXPECT_TRUE(readCounters(files).empty());
+
+  ASSERT_LT(files[1], 0);
+  EXPECT_NE(reasonOfNoCounts(files), reasonOfNoCounts({})) << "the kernel's error is kept";
+}
+
+TEST(EventCounters, SayWhyTheyDoNotCount) {
+  EXPECT_EQ(reasonOfNoCounts({5, -EACCES}),
+            "the kernel forbids it (/proc/sys/kernel/perf_event_paranoid)");
+  EXPECT_EQ(reasonOfNoCounts({5, -EPERM}), reasonOfNoCounts({-EACCES}));
+  EXPECT_EQ(reasonOfNoCounts({-ENODEV}), "the machine has no such counters: No such device");
+  EXPECT_EQ(reasonOfNoCounts({5, 6}), "other programs use the counters");
 }
 
 // A pipe that holds these numbers in place of a counter, and ends after them.

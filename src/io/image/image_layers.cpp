@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/display.h"
+#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/index.h"
 #include "core/text.h"
@@ -198,6 +199,23 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels, ChannelSet wante
   return layers;
 }
 
+namespace {
+
+// A word that is one letter off the name of a channel is taken for a misspelling. More would refuse
+// names such as "room.mirror.png", which is two letters off "error".
+void requireNoMisspelling(const std::string& path, const std::string& word) {
+  constexpr std::size_t kLeastLetters = 5;  // shorter words have too many neighbors
+  if (word.size() < kLeastLetters) return;
+
+  for (const ChannelInfo& info : kChannels) {
+    const std::string name(info.name);
+    if (editDistance(word, name) > 1) continue;
+    throwUsage("'" + path + "': no channel is called '" + word + "'; did you mean '" + name + "'?");
+  }
+}
+
+}  // namespace
+
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
   if (extensionOf(path) != ".png" && extensionOf(path) != ".exr") return std::nullopt;
 
@@ -209,11 +227,14 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
   }
 
   const std::string last = name.substr(name.rfind('.') + 1);
+  const bool isOnlyPart = last == name;
   const auto found = std::ranges::find(kChannels, last, &ChannelInfo::name);
-  if (found == kChannels.end()) return std::nullopt;
+  if (found == kChannels.end()) {
+    if (!isOnlyPart) requireNoMisspelling(path, last);
+    return std::nullopt;
+  }
 
   const auto channel = static_cast<Channel>(found - kChannels.begin());
-  const bool isOnlyPart = last == name;
   if (isOnlyPart && (extensionOf(path) == ".exr" || !kept.has(channel))) return std::nullopt;
   return channel;
 }

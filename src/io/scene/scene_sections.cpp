@@ -369,7 +369,11 @@ Json describe(const std::vector<float>& numbers) {
   return list;
 }
 
-Json describe(const Camera& camera) { return describeMembers(camera); }
+Json describe(const Camera& camera) {
+  Json json = describeMembers(camera);
+  if (!seesByFov(camera)) json.erase("fov");
+  return json;
+}
 
 void movePoints(Json& noun, const Vec3d& offset) {
   if (offset == Vec3d() || !noun.is_object()) return;

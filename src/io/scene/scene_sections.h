@@ -67,6 +67,10 @@ struct SceneContext {
   TextureLoader textures;  // last: its workers write to the scene
 };
 
+// True if the camera's field of view is its member fov.
+inline bool seesByFov(const Camera& c) {
+  return isPerspective(c) && c.k.empty() && !(c.orthographicHeight > 0);
+}
 // Reads the members of a camera that are given; the others keep their values.
 void readCamera(JsonObject& object, Camera& camera);
 // "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
