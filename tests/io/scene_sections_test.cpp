@@ -1,6 +1,6 @@
 // Cameras, lights, sky, materials and textures of scene files.
-#include "has_text.h"
 #include "io/scene/scene_sections.h"
+#include "has_text.h"
 #include "make/studio_sky.h"
 #include "scene/texture.h"
 #include "scene_files.h"

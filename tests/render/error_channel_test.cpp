@@ -179,8 +179,9 @@ struct SampledScene {
 TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
   constexpr double kDeviations = 1.96;  // 95 % of a normal distribution
   constexpr double kLeastCovered = 0.9;
-  for (const SampledScene& sampled : {SampledScene{"cornell", 1, 0}, SampledScene{"cornell", 0, 1},
-                                 SampledScene{"glossy", 0, 0}, SampledScene{"whitted", 0, 0}}) {
+  for (const SampledScene& sampled :
+       {SampledScene{"cornell", 1, 0}, SampledScene{"cornell", 0, 1}, SampledScene{"glossy", 0, 0},
+        SampledScene{"whitted", 0, 0}}) {
     RenderOptions o = smallOptions();
     o.size = ImageSize{64, 48};
     o.lightSamples = 2;
