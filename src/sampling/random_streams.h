@@ -52,8 +52,9 @@ struct Lattice {
 // of quasirandom sequences").
 inline constexpr Lattice kLobeLattice{3242174889u, 2447445414u};
 // A lens needs another one, or the place on the lens would decide what a lobe of the first surface
-// draws: the fractions of the square roots of 2 and 3. By itself it is as even as the other.
-inline constexpr Lattice kLensLattice{1779033703u, 3144134277u};
+// draws: the fractions of the square roots of 3 and 7. By itself, and with the samples of a pixel,
+// it is as even as the other.
+inline constexpr Lattice kLensLattice{3144134277u, 2773480762u};
 
 // How the lobe of a surfel is sampled: `count` points of a lattice, from the point `first` on, that
 // is shifted at random from path to path. The samples of a pixel share the shift where they meet

@@ -57,9 +57,11 @@ std::string motionText(const Motion& motion) {
 
 std::string cameraText(const Camera& c) {
   std::string text = R"({"main": {"eye": )" + list(c.eye) + R"(, "at": )" + list(c.at) +
-                     R"(, "up": )" + list(c.up) + R"(, "fov": )" + number(c.fov);
+                     R"(, "up": )" + list(c.up);
   if (c.orthographicHeight > 0) {
     text += R"(, "orthographicHeight": )" + number(c.orthographicHeight);
+  } else {
+    text += R"(, "fov": )" + number(c.fov);
   }
   if (c.aperture > 0) {
     text += R"(, "aperture": )" + number(c.aperture) + R"(, "focus": )" + number(c.focus);
