@@ -18,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/index.h"
 #include "core/text.h"
 
 namespace whit {
