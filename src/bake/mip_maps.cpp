@@ -48,56 +48,39 @@ std::uint32_t codeOf(TexelFormat format, double value, std::size_t channel) {
   return static_cast<std::uint32_t>(nearest) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
-// The mean of texels by their shares, which sum to 1 unless they are weighted. It is black where
-// all weights are 0.
-class TexelMean {
- public:
-  TexelMean(TexelFormat format, bool isWeighted) : format_(format), isWeighted_(isWeighted) {}
-
-  void add(std::uint32_t texel, double share) {
-    const std::array<double, 4> values = valuesOf(format_, texel);
-    for (const auto c : indices(values)) sum_[c] += share * values[c];
-    total_ += share;
-  }
-
-  std::uint32_t texel() const {
-    std::array<double, 4> mean = sum_;
-    if (isWeighted_ && total_ > 0) {
-      for (double& channel : mean) channel /= total_;
-    }
-
-    if (format_ == TexelFormat::radiance) {
-      return encodeRadianceTexel(Rgb(RgbD(mean[0], mean[1], mean[2])));
-    }
-    const std::size_t channels = format_ == TexelFormat::data ? 4 : 3;
-    std::uint32_t texel = 0;
-    for (const auto c : indices(channels)) texel |= codeOf(format_, mean[c], c);
-    return texel;
-  }
-
- private:
-  TexelFormat format_;
-  bool isWeighted_;
-  std::array<double, 4> sum_{};
-  double total_ = 0;
-};
-
+// Sum over the covered texels, weighted by their shares, or mean by shares times `weights` if there
+// are any. The result is black where all weights are 0.
 std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
                         const TexelCover& columns, const TexelCover& rows) {
-  TexelMean mean(texture.format, weights != nullptr);
+  std::array<double, 4> sum{};
+  double total = 0;
+
   for (const auto y : indices(rows.shares)) {
     for (const auto x : indices(columns.shares)) {
       const int column = columns.first + static_cast<int>(x);
       const int row = rows.first + static_cast<int>(y);
       double share = rows.shares[y] * columns.shares[x];
       if (weights) share *= weights->at(column, row);
-      mean.add(texture.texel(column, row), share);
+      total += share;
+
+      const std::array<double, 4> values = valuesOf(texture.format, texture.texel(column, row));
+      for (const auto c : indices(values)) sum[c] += share * values[c];
     }
   }
-  return mean.texel();
+  if (weights && total > 0) {
+    for (double& channel : sum) channel /= total;
+  }
+
+  if (texture.format == TexelFormat::radiance) {
+    return encodeRadianceTexel(Rgb(RgbD(sum[0], sum[1], sum[2])));
+  }
+  const std::size_t channels = texture.format == TexelFormat::data ? 4 : 3;
+  std::uint32_t mean = 0;
+  for (const auto c : indices(channels)) mean |= codeOf(texture.format, sum[c], c);
+  return mean;
 }
 
-// The codes that meanTexel() finds for four texels, from whole numbers.
+// The codes that meanTexel() finds for four texels of equal weights, from whole numbers.
 std::uint32_t meanOfFour(TexelFormat format, const std::array<std::uint32_t, 4>& texels) {
   const bool isData = format == TexelFormat::data;
   const int bits = isData ? 8 : 10;

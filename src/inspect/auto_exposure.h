@@ -6,8 +6,8 @@
 namespace whit {
 
 // Returns the exposure in steps of 1/8 EV. It follows from scene, camera, effects and tone curve
-// alone, not from size, crop or how the picture is computed: the packets of the renderer, which has
-// its own options afterwards, trace a small picture of the scene's own shape first.
+// alone, not from size, crop or how the picture is computed: packets trace a small picture of the
+// scene's own shape first. The renderer keeps its options.
 float exposureFor(Renderer& renderer, const Camera& camera);
 
 // Gives an automatic exposure of the options its value, and tells the renderer.

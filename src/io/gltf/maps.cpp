@@ -313,9 +313,10 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
   Images maps = emptyMaps(m, images[kBase].get(), baked.sampler.value_or(m.baseMap), width, height);
 
-  // Where a map has the base color as it is, an image of the same size is encoded faster.
+  // A map that has the base color as it is takes it from an image of the same size, which is faster
+  // than texel by texel.
   const RawImage* const own = images[kBase].get();
-  const auto copyOfBase = [&](GltfBakedMap map) {
+  const auto copiesBase = [&](GltfBakedMap map) {
     const bool isCopied = maps[map] && own && own->width == width && own->height == height;
     if (isCopied) maps[map]->texels = makeTexture(m.name, *own, maps[map]->format).texels;
     return isCopied;
@@ -324,8 +325,8 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   std::optional<Texture>& specularMap = maps[kGltfSpecular];
   std::optional<Texture>& transmissionMap = maps[kGltfTransmission];
   const bool isDimmed = m.mixesMetal() || m.variesTransmission();
-  const bool mixesDiffuse = diffuseMap && (isDimmed || !copyOfBase(kGltfDiffuse));
-  const bool mixesSpecular = specularMap && (m.bakesSpecular() || !copyOfBase(kGltfSpecular));
+  const bool mixesDiffuse = diffuseMap && (isDimmed || !copiesBase(kGltfDiffuse));
+  const bool mixesSpecular = specularMap && (m.bakesSpecular() || !copiesBase(kGltfSpecular));
 
   // Factors of the material follow from the means of the images.
   RgbD colors, tintSum;
