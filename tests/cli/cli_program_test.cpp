@@ -105,7 +105,9 @@ TEST_F(Program, SaysThatASceneIsDark) {
   const std::string foggy = folder_ / "foggy.json";
   std::ofstream(foggy) << text.insert(text.find('{') + 1,
                                       R"("fog": {"density": 0.1, "color": [0.2, 0.4, 0.6]},)");
-  EXPECT_FALSE(hasText(errorsOf(foggy), "is black"));
+  const std::string said = errorsOf(foggy);
+  EXPECT_TRUE(hasText(said, "wrote ")) << said;
+  EXPECT_FALSE(hasText(said, "is black")) << said;
 }
 
 TEST_F(Program, SaysThatFrostedGlassIsShownClear) {

@@ -145,7 +145,7 @@ TEST(AutoExposure, OfAModelClipsAtMostOneHalfPercent) {
 }
 
 // The highlights of the pieces are many small ones: those that measured pixels happen to meet must
-// not decide. Between these views the share of the clipped pixels changes by a tenth.
+// not decide.
 TEST(AutoExposure, OfAModelIsAboutTheSameInNeighboringViews) {
   constexpr float kMost = 0.5f;  // EV
   const auto exposureFrom = [](const char* azimuth, const char* zoom) {
