@@ -45,7 +45,8 @@ void expectNarrowLines(const std::string& text) {
 // The shipped scenes that take little time are swept with every knob. The terminal's table, the
 // rows and the report agree.
 TEST_F(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
-  expectNarrowLines(sweep({"whitted", "glossy", "--size", "8x6", "--time-budget", "0.5"}).out);
+  const char* const seconds = kSanitized ? "0.05" : "0.5";
+  expectNarrowLines(sweep({"whitted", "glossy", "--size", "8x6", "--time-budget", seconds}).out);
 
   // How many points are on a front depends on how busy the machine is, so only their rounds are
   // tested.

@@ -158,7 +158,7 @@ TEST_F(Viewer, AccumulatesAtRest) {
   std::ofstream(folder_ / "script.txt") << "bare\nwait sharp\nscreenshot shown.png\nkey C\n";
   const cli::Outcome outcome = runOn(display_.name(), folder_.path().string(),
                                      {WHIT_VIEW_SCRIPT_PROGRAM, "rough.json", "--quiet", "--glossy",
-                                      "1", "--script", "script.txt"});
+                                      "1", "--size", "320x240", "--script", "script.txt"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 
   const std::vector<std::string> lines = linesOf(outcome.out);

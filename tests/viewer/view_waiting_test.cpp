@@ -9,6 +9,7 @@
 
 #include "has_text.h"
 #include "render_thread_fixture.h"
+#include "sanitized.h"
 #include "viewer/session/scene_reader.h"
 #include "viewer_fixture.h"
 
@@ -123,7 +124,7 @@ double programSeconds() {
 
 // Dropping the repetitions of a triangle takes long, and is not interrupted.
 TEST_F(Viewer, QuitsWhileASceneIsRead) {
-  constexpr int kRepetitions = 600'000;
+  constexpr int kRepetitions = kSanitized ? 60'000 : 300'000;
   std::string model = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < kRepetitions; ++i) model += "f 1 2 3\n";
   std::ofstream(folder_ / "slow.obj") << model;
