@@ -11,6 +11,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <regex>
 #include <thread>
 
@@ -433,40 +435,61 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
   session_->watch(-1);
 }
 
-// Without a scene pages choose among the shipped ones, and can name no other file.
-TEST_F(Serving, WithoutASceneTheShippedOnesAreOffered) {
-  const std::string shipped = folder_ / "shipped";
-  std::filesystem::create_directory(shipped);
-  std::filesystem::copy(folder_ / "tiny.json", shipped + "/aa.json");
-  setenv("WHIT_SCENES", shipped.c_str(), 1);
+// Starts without a scene. The shipped ones are aa and the moving ab.
+class ServingNoScene : public Serving {
+ protected:
+  ServingNoScene() {
+    std::filesystem::create_directory(shipped_);
+    std::filesystem::copy(folder_ / "tiny.json", shipped_ + "/aa.json");
+    std::ofstream(shipped_ + "/ab.json") << R"({"whit": 1, "size": [48, 32],
+      "cameras": {"front": {"eye": [0, 0, 6], "at": [0, 0, 0]}}, "sky": {"color": 0.5},
+      "scene": [{"shape": "box", "motion": {"loop": true, "keys": [
+        {"time": 0}, {"time": 10, "rotate": [0, 1, 0, 360]}]}}]})";
+    setenv("WHIT_SCENES", shipped_.c_str(), 1);
+    view::ViewOptions options = options_;
+    options.scene.clear();
+    open_ = std::make_unique<ServedSession>(options, nullptr);
+    open_->watch(1);
+  }
+  ~ServingNoScene() override { unsetenv("WHIT_SCENES"); }
 
-  view::ViewOptions options = options_;
-  options.scene.clear();
-  ServedSession session(options, nullptr);
-  session.watch(1);
-  std::shared_ptr<const Shot> shot;
-  // Waits until a text of the shots holds these words.
-  const auto isTold = [&](auto text, const std::string& words) {
+  void post(const std::string& line) { open_->post(view::readMessages(line)); }
+  // Waits until this text of a shot holds these words.
+  bool isTold(const std::function<std::string(const Shot&)>& text, const std::string& words) {
     constexpr double kLongEnoughMs = 30'000;
     for (const Stopwatch waited; waited.ms() < kLongEnoughMs;) {
-      shot = session.wait(shot ? shot->number : 0);
-      if (shot && text(*shot).find(words) != std::string::npos) return true;
+      shot_ = open_->wait(shot_ ? shot_->number : 0);
+      if (shot_ && text(*shot_).find(words) != std::string::npos) return true;
     }
     return false;
-  };
-  const auto live = [](const Shot& s) { return s.live; };
-  const auto tables = [](const Shot& s) { return *s.tables; };
+  }
+  static std::string live(const Shot& shot) { return shot.live; }
+  static std::string settled(const Shot& shot) { return shot.settled; }
+  static std::string tables(const Shot& shot) { return *shot.tables; }
 
+  const std::string shipped_ = folder_ / "shipped";
+  std::unique_ptr<ServedSession> open_;
+  std::shared_ptr<const Shot> shot_;
+};
+
+// Pages choose among the shipped scenes, and can name no other file.
+TEST_F(ServingNoScene, OffersTheShippedOnes) {
   EXPECT_TRUE(isTold(tables, "\"scenes\":[\"aa\"")) << "not the first of the list";
-  session.post(view::readMessages("scene " + options_.scene));
+  post("scene " + options_.scene);
   EXPECT_TRUE(isTold(live, "no shipped scene has this name"));
-  session.post(view::readMessages("scene aa"));
+  post("scene aa");
   EXPECT_TRUE(isTold(tables, "\"scene\":\"aa\""));
-  EXPECT_EQ(shot->tables->find("\"scenes\""), std::string::npos);
-  EXPECT_TRUE(isTold([](const Shot& s) { return s.settled; }, "whit render aa "));
-  session.post(view::readMessages("scene aa"));
+  EXPECT_EQ(shot_->tables->find("\"scenes\""), std::string::npos);
+  EXPECT_TRUE(isTold(settled, "whit render aa "));
+  post("scene aa");
   EXPECT_TRUE(isTold(live, "a scene is open already"));
-  unsetenv("WHIT_SCENES");
+}
+
+// A scene that plays never rests, and nobody touches it.
+TEST_F(ServingNoScene, SaysWhatASceneThatPlaysHas) {
+  EXPECT_TRUE(isTold(tables, "\"scenes\""));
+  post("scene ab");
+  EXPECT_TRUE(isTold(settled, "ab, 12 triangles"));
 }
 
 // What the table of verbs leaves to the page is in the page's script.

@@ -240,9 +240,11 @@ void ServedSession::publish() {
   shot->exact = wasSharp_ = state.sharp;
   shot->live = textOf(liveJson());
 
-  // Settings and the ray tree are written only after an action of the user or at rest. Pages get
-  // them only if they differ from the last ones.
-  const bool said = std::exchange(said_, false) || rests;
+  // Settings and the ray tree are written only after an action of the user, at rest, and with the
+  // first picture of a scene, which may play at once. Pages get them only if they differ from the
+  // last ones.
+  const std::shared_ptr<const OpenScene> settled = std::exchange(settled_, state.shown.scene);
+  const bool said = std::exchange(said_, false) || rests || settled != settled_;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;

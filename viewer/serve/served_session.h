@@ -81,7 +81,8 @@ class ServedSession {
 
   const std::shared_ptr<Alarm> alarm_;
   view::Session session_;
-  std::shared_ptr<const OpenScene> tabled_;  // the scene of tables_
+  std::shared_ptr<const OpenScene> tabled_;   // the scene of tables_
+  std::shared_ptr<const OpenScene> settled_;  // the scene whose settings were last written
   std::shared_ptr<const std::string> tables_;
   ImageSize size_;
   std::optional<Camera> upright_;  // the view that fits a narrow page
