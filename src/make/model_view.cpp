@@ -61,13 +61,37 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   return sides[found - shown.begin()];
 }
 
+// A sum of angles between -pi and pi, each given by its cosine and sine times any factor. The sum
+// is the argument of a product of complex numbers plus whole turns, which is faster than to take
+// the arc tangent of every angle.
+class AngleSum {
+ public:
+  void add(double cosine, double sine) {
+    const double re = re_ * cosine - im_ * sine, im = re_ * sine + im_ * cosine;
+    // The argument leaves (-pi, pi] where both angles turn the same way and their sum the other
+    // way.
+    if (im_ >= 0 && sine > 0 && im < 0) ++turns_;
+    if (im_ < 0 && sine < 0 && im >= 0) --turns_;
+
+    // Only the direction counts; the length neither grows nor vanishes.
+    const double scale = 1 / (std::abs(re) + std::abs(im));
+    re_ = re * scale;
+    im_ = im * scale;
+  }
+  double radians() const { return std::atan2(im_, re_) + 2 * std::numbers::pi * turns_; }
+
+ private:
+  double re_ = 1, im_ = 0;
+  int turns_ = 0;
+};
+
 // True if the surfaces around the point are walls of a room with a few small openings at most. The
 // winding number is 1 in a body, -1 in a room whose walls' fronts look inwards, and 0 outside
 // (solid angles after van Oosterom and Strackee 1983).
 bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12, kClosed = -0.9;
 
-  double angle = 0;
+  AngleSum halves;  // of solid angles
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);
@@ -75,9 +99,9 @@ bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
     // The solid angle of a triangle is positive if the point lies behind its front.
     const double volume = dot(a, cross(b, c)), space = la * lb * lc;
     if (!(std::abs(volume) > kFlat * space)) return;  // it lies in the plane: on neither side
-    angle += 2 * std::atan2(volume, space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    halves.add(space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb, volume);
   });
-  return angle / (4 * std::numbers::pi) <= kClosed;
+  return halves.radians() / (2 * std::numbers::pi) <= kClosed;
 }
 
 // True for a single mesh to which its file gives no material.
