@@ -146,6 +146,7 @@ template <typename Options, typename Use>
 decltype(auto) withOptions(Options& o, Use&& use) {
   // clang-format off
   return use(
+      // What everything else begins with.
       Option{{.name = "quality", .words = "good|standard|reference",
               .help = "preset of other options, see below; good: a picture to show (default: "
                       "standard, one sample per pixel)",
@@ -155,6 +156,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "image size in pixels (default: the scene's, else 480x300)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.size},
+
+      // The view.
       Option{{.name = "camera", .words = "NAME",
               .help = "one of the scene's cameras (default: the first)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
@@ -181,6 +184,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "pixels that are rendered; they become the EXR's data window",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.crop},
+
+      // Samples of a pixel.
       Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
               .help = "samples per pixel, for anti-aliasing",
               .everyday = true},
@@ -193,6 +198,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
                       "samples them"},
              o.contrast},
+
+      // Reflected, refracted and sampled rays.
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
                       "called impulses",
@@ -231,6 +238,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "chance and weighted to keep the mean; 0: no bound",
               .tab = Tab::none},
              o.maxRays},
+
+      // Light, surfaces and their approximations.
       Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
               .help = "soft shadows of area lights: shadow rays per hit and light with a radius; "
                       "1: to its center only",
@@ -275,6 +284,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "wrong side of the surface",
               .cheapest = "off"},
              o.shading.bend},
+
+      // How the work is done.
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
               .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
@@ -307,6 +318,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "when robust",
               .rebuilds = Rebuild::acceleration},
              o.bvh},
+
+      // What the scene is made of.
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",
@@ -321,6 +334,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "effects to leave out, by the names that whit info prints",
               .rebuilds = Rebuild::tables, .tab = Tab::none},
              o.disable},
+
+      // Display.
       Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
               .help = "exposure of 8-bit output in stops; auto: measured in the view (default: 0, "
                       "of models without a scene file auto)",
@@ -335,6 +350,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "a color, as ff8000, white or black, which an EXR leaves transparent",
               .tab = Tab::none, .everyday = true},
              o.background},
+
+      // Sizes of the work.
       Option{{.name = "tile", .words = "N", .low = 1, .high = 4096,
               .help = "side of a tile in pixels",
               .rebuilds = Rebuild::workers, .changesPicture = false},
@@ -343,6 +360,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "rays in a queue before the next depth is traced (0: two tiles)",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.queue},
+
+      // Results.
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "

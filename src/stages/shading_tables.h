@@ -36,34 +36,43 @@ struct alignas(64) MaterialRecord {
   std::int32_t coverageMap;
 };
 static_assert(sizeof(MaterialRecord) == 128);
-inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
-                               kMaterialGlossy = 8, kMaterialScatters = 16,
-                               kMaterialTintsSpecular = 32, kMaterialTintsEmission = 64;
+inline constexpr std::uint32_t kMaterialReflects = 1u << 0;
+inline constexpr std::uint32_t kMaterialTransmits = 1u << 1;
+inline constexpr std::uint32_t kMaterialEmits = 1u << 2;
+inline constexpr std::uint32_t kMaterialGlossy = 1u << 3;
+inline constexpr std::uint32_t kMaterialScatters = 1u << 4;
+inline constexpr std::uint32_t kMaterialTintsSpecular = 1u << 5;
+inline constexpr std::uint32_t kMaterialTintsEmission = 1u << 6;
 // Maps that are looked up with the second texture coordinates.
-inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
+inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 1u << 7;
+inline constexpr std::uint32_t kMaterialNormalBySecondUvs = 1u << 8;
 // The emission map's texels are of radiance, not of color.
-inline constexpr std::uint32_t kMaterialEmissionIsRadiance = 512;
-inline constexpr std::uint32_t kMaterialVariesRoughness = 1024, kMaterialIsPartlyThere = 2048;
+inline constexpr std::uint32_t kMaterialEmissionIsRadiance = 1u << 9;
+inline constexpr std::uint32_t kMaterialVariesRoughness = 1u << 10;
+inline constexpr std::uint32_t kMaterialIsPartlyThere = 1u << 11;
 // Some map of it is looked up.
-inline constexpr std::uint32_t kMaterialMapped = 4096;
+inline constexpr std::uint32_t kMaterialMapped = 1u << 12;
 // Under --indirect its diffuse color reflects the scene, in place of ambient light.
-inline constexpr std::uint32_t kMaterialDiffuses = 8192;
+inline constexpr std::uint32_t kMaterialDiffuses = 1u << 13;
 // Material::reflectsBlurredSky() in such frames.
-inline constexpr std::uint32_t kMaterialBlursSky = 32768;
+inline constexpr std::uint32_t kMaterialBlursSky = 1u << 15;
 // Material::isLayered(), covers() and mirrorsByLobe() in such frames.
-inline constexpr std::uint32_t kMaterialLayered = 16384, kMaterialCovers = 1u << 20,
-                               kMaterialMirrorsByLobe = 1u << 21;
+inline constexpr std::uint32_t kMaterialLayered = 1u << 14;
+inline constexpr std::uint32_t kMaterialCovers = 1u << 20;
+inline constexpr std::uint32_t kMaterialMirrorsByLobe = 1u << 21;
 // Material::coat, and isUnderCoat() in such frames.
-inline constexpr std::uint32_t kMaterialCoated = 1u << 22, kMaterialIsUnderCoat = 1u << 23;
+inline constexpr std::uint32_t kMaterialCoated = 1u << 22;
+inline constexpr std::uint32_t kMaterialIsUnderCoat = 1u << 23;
 // Material::frosts() and hasFrostedInterface() in such frames.
-inline constexpr std::uint32_t kMaterialFrosts = 1u << 24, kMaterialFrostedInterface = 1u << 25;
-inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
-                               kMaterialOcclusionBySecondUvs = 1u << 17;
+inline constexpr std::uint32_t kMaterialFrosts = 1u << 24;
+inline constexpr std::uint32_t kMaterialFrostedInterface = 1u << 25;
+inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16;
+inline constexpr std::uint32_t kMaterialOcclusionBySecondUvs = 1u << 17;
 // Material::alphaByVertex.
 inline constexpr std::uint32_t kMaterialAlphaByVertex = 1u << 26;
 // Maps or vertex colors multiply it.
-inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18,
-                               kMaterialVariesTransmission = 1u << 19;
+inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18;
+inline constexpr std::uint32_t kMaterialVariesTransmission = 1u << 19;
 
 // This flag marks a texture whose texels are not interpolated.
 inline constexpr std::uint32_t kNearestTexel = 1 << 16;
