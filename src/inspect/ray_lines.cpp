@@ -188,4 +188,27 @@ std::optional<ScreenLine> LineView::see(Vec3d from, Vec3d to) const {
   return ScreenLine{x1, y1, x2, y2};
 }
 
+bool clip(ScreenLine& line, double width, double height) {
+  // Each edge of the window bounds the line's parameter t from one side (Liang and Barsky 1984).
+  double from = 0, to = 1;
+  const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
+  const auto keep = [&](double step, double room) {  // step * t <= room
+    if (step == 0) return room >= 0;
+    const double t = room / step;
+    if (step > 0) {
+      to = std::min(to, t);
+    } else {
+      from = std::max(from, t);
+    }
+    return from <= to;
+  };
+
+  const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
+                    keep(dy, height - line.y1);
+  if (!seen) return false;
+
+  line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
+  return true;
+}
+
 }  // namespace whit

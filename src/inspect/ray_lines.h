@@ -59,4 +59,8 @@ class LineView {
   double near_;
 };
 
+// Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
+// it is left.
+bool clip(ScreenLine& line, double width, double height);
+
 }  // namespace whit

@@ -321,7 +321,7 @@ Json ServedSession::liveJson() const {
   const LineView view(state.shown.request.camera, size_.width, size_.height);
   for (const RayLine& line : state.rays.lines) {
     auto seen = view.see(line.from, line.to);
-    if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
+    if (!seen || !clip(*seen, size_.width, size_.height)) continue;
 
     const auto rounded = [](double x) { return std::round(10 * x) / 10; };
     json["lines"].push_back({rounded(seen->x1), rounded(seen->y1), rounded(seen->x2),

@@ -32,103 +32,12 @@ std::shared_ptr<OpenScene> emptyScene() {
   return openScene({"", text}, {}, false);
 }
 
-// All scales are multiples of 1/16.
-std::string fraction(double scale) {
-  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
-  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
-  return below == 1 ? "full" : formatted("%d/%d", above, below);
-}
-
 }  // namespace
-
-void listViewOptions(cli::OptionList& list, ViewOptions& options) {
-  list.value({"rate", "N", kLeastRate, kLargestRate},
-             "frames a second to hold while something moves (default: 60, on up to four cores 30)",
-             options.rate);
-  list.value(kViewOption, "what to show instead of the picture", options.view);
-  cli::listCommonOptions(list, options.common);
-}
-
-void settleViewOptions(ViewOptions& options) {
-  if (options.common.given.contains("crop")) {
-    throwUsage("--crop: the viewer shows whole images; use whit render");
-  }
-  if (options.common.render.mode == Mode::reference) {
-    throwUsage("--mode reference is too slow to look around with; use whit render");
-  }
-  options.common.load.instant.plays = true;
-}
-
-std::string errorText(double sampleError) {
-  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : "";
-}
-
-std::string sharpnessText(const FrameRequest& request) {
-  const int window = std::max(request.window.width, 1);
-  const int width = request.options.size ? request.options.size->width : window;
-  std::string text = fraction(static_cast<double>(width) / window);
-  if (request.spp != 1) text += formatted(", %d samples", request.spp);
-  if (request.plain) text += ", without sampled rays";
-  return text;
-}
-
-std::string statusText(const ViewState& state) {
-  std::string text = sharpnessText(state.shown.request) + errorText(state.shown.sampleError);
-  if (const auto& next = state.unfinished) {
-    text = formatted("%d of %d samples", next->samples, next->request.spp) +
-           errorText(next->sampleError);
-  }
-  if (state.pictureMs > 0) text += formatted(", %.0f frames/s", 1000 / state.pictureMs);
-  return text;
-}
-
-std::string aboutText(const TracedFrame& frame) {
-  const Machine& machine = frame.machine;
-  return formatted("%s, %s; %s, packets of %d, %d thread%s", frame.scene->scene.name.c_str(),
-                   frame.surfaces.c_str(), machine.simd.c_str(), machine.packet, machine.threads,
-                   machine.threads == 1 ? "" : "s");
-}
 
 std::vector<std::string> shippedNames() {
   std::vector<std::string> names;
   for (const auto& file : shippedScenes()) names.push_back(file.stem().string());
   return names;
-}
-
-bool Timeline::step(double later) {
-  if (!there || !playing) return false;
-  seconds += later;
-  if (seconds > length) seconds = length > 0 ? std::fmod(seconds, length) : 0;
-  return true;
-}
-
-Timeline timelineOf(const Scene& scene, const Instant& instant) {
-  Timeline timeline;
-  timeline.seconds = instant.seconds.value_or(0);
-  timeline.animation = instant.animation;
-
-  for (const Animation& animation : scene.animations) {
-    // A model's first animation plays unless another is named; motions of a scene file always do.
-    const bool own = animation.name == kSceneMotion;
-    if (!own && timeline.animation.empty()) timeline.animation = animation.name;
-    if (!own) timeline.animations.push_back(animation.name);
-
-    if (own || animation.name == timeline.animation) {
-      timeline.length = std::max(timeline.length, animation.seconds);
-    }
-  }
-
-  for (const MovingCamera& camera : scene.motion.given.cameras) {
-    if (camera.node != kNoNode) continue;  // without a node it flies along the path
-    timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
-  }
-
-  // Motion set by a program has no length. A scene that was loaded to stand still may still list
-  // animations.
-  timeline.there = !scene.motion.empty() && timeline.length > 0;
-  timeline.playing = timeline.there && !instant.seconds;
-  if (timeline.animations.size() == 1) timeline.animations.clear();
-  return timeline;
 }
 
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
@@ -143,47 +52,6 @@ void Session::rememberCosts() {
   } else if (!isMeasuredView(measuredFor_, state_.shown.request)) {
     state_.costs.clear();
   }
-}
-
-bool clip(ScreenLine& line, double width, double height) {
-  // Each edge of the window bounds the line's parameter t from one side (Liang and Barsky 1984).
-  double from = 0, to = 1;
-  const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
-  const auto keep = [&](double step, double room) {  // step * t <= room
-    if (step == 0) return room >= 0;
-    const double t = room / step;
-    if (step > 0) {
-      to = std::min(to, t);
-    } else {
-      from = std::max(from, t);
-    }
-    return from <= to;
-  };
-
-  const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
-                    keep(dy, height - line.y1);
-  if (!seen) return false;
-
-  line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
-  return true;
-}
-
-Selection select(const RayPick& pick) {
-  Selection selection;
-  const RayNode& met = pick.rays.packets.nodes.front();
-  if (met.triangle == kMiss) return selection;
-  selection.material = met.material;
-
-  // The selected light is the one that adds most to the surface in its largest channel.
-  double most = 0;
-  for (const LightContribution& light : met.lights) {
-    const double radiance = maxComponent(light.radiance);
-    if (radiance <= most || light.light == kAmbientLight) continue;
-
-    most = radiance;
-    selection.light = light.light;
-  }
-  return selection;
 }
 
 Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,

@@ -4,40 +4,22 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/machine_limits.h"
 #include "core/stopwatch.h"
-#include "scene/motion.h"
 #include "viewer/session/camera_control.h"
-#include "viewer/session/frame_tracer.h"
 #include "viewer/session/render_thread.h"
 #include "viewer/session/resolution_control.h"
 #include "viewer/session/scene_reader.h"
 #include "viewer/session/verbs.h"
 #include "viewer/session/view_files.h"
+#include "viewer/session/view_options.h"
+#include "viewer/session/view_state.h"
 
 namespace whit::view {
-
-// The options that the command lines of both faces have in common.
-struct ViewOptions {
-  cli::CommonOptions common;
-  std::string scene;  // as on the command line
-  DebugView view = DebugView::none;
-  double rate = defaultRate(usableThreads());  // frames a second to hold in motion
-};
-void listViewOptions(cli::OptionList& list, ViewOptions& options);
-inline constexpr OptionSpec kViewOption{.name = "view",
-                                        .words =
-                                            "none|depth|normals|albedo|rays|cost|occupancy|"
-                                            "reference|difference"};
-// Throws Error(usage) for options that a viewer cannot follow; the scene plays if it moves.
-void settleViewOptions(ViewOptions& options);
 
 // A length that the pointer was dragged, in pixels; y grows downwards.
 struct Drag {
@@ -50,80 +32,14 @@ struct Drags {
   double wheel = 0;
 };
 
-// What a click on the picture selects in the scene; kNoCounterpart: nothing.
-struct Selection {
-  std::size_t material = kNoCounterpart, light = kNoCounterpart;
-};
-
-// The instant of a scene that moves: it plays by the clock, or the user sets it.
-struct Timeline {
-  bool there = false;  // the scene moves
-  double seconds = 0, length = 0;
-  bool playing = false;
-  std::vector<std::string> animations;  // to choose from; empty where there is one only
-  std::string animation;                // the animation that plays
-
-  // Goes on by that many seconds. Returns whether it was playing.
-  bool step(double later);
-  std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
-};
-
 // Returns the size that a scene has by itself.
 inline ImageSize sizeOf(const Scene& scene) { return {scene.width, scene.height}; }
 
 // Returns the names of the shipped scenes, which are chosen from where no scene is named.
 std::vector<std::string> shippedNames();
 
-// Returns the timeline of a scene that was just read: at the instant's seconds if it has any,
-// otherwise playing from 0.
-Timeline timelineOf(const Scene& scene, const Instant& instant);
-
 // Returns whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
-
-// ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
-// empty where that is not known.
-std::string errorText(double sampleError);
-// "1/4, 16 samples": the share of the window's pixels a side, and the samples.
-std::string sharpnessText(const FrameRequest& request);
-
-// Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
-// it is left.
-bool clip(ScreenLine& line, double width, double height);
-// Returns the material that was hit and the light that adds most.
-Selection select(const RayPick& pick);
-
-// What the window and the page show, and what the user has chosen.
-struct ViewState {
-  std::shared_ptr<const OpenScene> scene;  // the scene of the frame shown
-  std::string sceneName;                   // as on the command line
-  RenderOptions options;
-  DebugView view = DebugView::none;
-  bool measures = false;  // the costs of options are being measured
-  Timeline timeline;
-  std::optional<std::size_t> followed;  // the scene's camera whose view is shown
-  EditedScene edited;                   // with edits that are not traced yet
-  Sky ownSky;                           // of the scene as it was read
-
-  TracedFrame shown;
-  std::optional<UnfinishedFrame> unfinished;  // is shown in place of the frame
-  std::vector<KnobCost> costs;                // measured so far at the view of the last frame
-  double pictureMs = 0;  // mean time between pictures in motion; 0: nothing moves
-  bool sharp = false;    // the frame shown gets no finer
-  RayPick rays;          // of the pixel that was clicked
-  Selection selected;
-  int selections = 0;  // number of clicks that have selected something
-
-  std::string message;                          // empty when its time is over
-  std::string error;                            // stays until it is dismissed or a scene is read
-  int errors = 0;                               // number of errors so far
-  ExitStatus status = ExitStatus::checkFailed;  // of a program that ends with the last error
-};
-
-// "1/4, 16 samples, 30 frames/s": what the picture has, and how often it changes.
-std::string statusText(const ViewState& state);
-// "whitted, 2 triangles ...; avx2, packets of 8, 4 threads".
-std::string aboutText(const TracedFrame& frame);
 
 class Session {
  public:
