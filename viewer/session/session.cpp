@@ -16,9 +16,7 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureLimit = 64;
-constexpr double kEditPauseSeconds = 0.5;  // a longer pause begins another edit
-constexpr std::size_t kMostEdits = 200;    // that can be undone
-constexpr double kPixelsPerNotch = 20;     // dragged with the right button to go forward
+constexpr double kPixelsPerNotch = 20;  // dragged with the right button to go forward
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error
@@ -82,7 +80,7 @@ void Session::enterScene(const std::string& name, bool isFirst) {
   subject_ = subjectOf(scene());
   state_.ownSky = state_.edited.sky;
   savedSettings_ = readSettings_ = state_.edited.settings;
-  past_ = {present()};
+  history_ = History(present());
 
   const cli::CommonOptions& given = options_.common;
   state_.timeline = timelineOf(scene(), isFirst ? given.load.instant : Instant());
@@ -151,7 +149,7 @@ void Session::advance(double seconds) {
   askForFrame();
   messageSeconds_ -= seconds;
   if (messageSeconds_ <= 0) state_.message.clear();
-  sinceEdit_ += seconds;
+  history_.wait(seconds);
 }
 
 bool Session::isActive() const {
@@ -247,7 +245,7 @@ bool Session::fetchFrame() {
       const auto size = state_.options.size;
       state_.options = state_.shown.request.options;
       state_.options.size = size;
-      takeBack();
+      history_.takeBack(present());
     }
     fail(error);
   }
@@ -279,15 +277,13 @@ bool Session::fetchFrame() {
   const FrameRequest& request = state_.shown.request;
   if (state_.options.exposure.automatic) {
     state_.options.exposure = request.options.exposure;
-    for (Past& past : past_) {
-      if (past.options.exposure.automatic) past.options.exposure = request.options.exposure;
-    }
+    history_.settleExposure(request.options.exposure);
   }
 
   // An edit that failed is taken back.
   if (request.edits == edits_) {
     state_.edited = *state_.shown.edited;
-    takeBack();
+    history_.takeBack(present());
   }
 
   if (!state_.shown.warning.empty()) say("warning: " + state_.shown.warning);
@@ -311,7 +307,7 @@ bool Session::followScene() {
   // Edits that were made while the scene was read again are made in the new one as well.
   if (isOutdated) {
     state_.edited = wanted;
-    past_.back() = present();
+    history_.replace(present());
     postEdit();
   }
   return elsewhere;
@@ -438,42 +434,24 @@ void Session::edit(const std::vector<std::string>& settings, const EditedScene& 
   state_.edited = edited;
   addEdit(settings, state_.edited);
   postEdit();
-  remember();
-}
-
-// Notes the present state as one that undoing returns to. Without a pause it takes the place of the
-// last one.
-void Session::remember() {
-  const bool goesOn = past_.size() > 1 && sinceEdit_ < kEditPauseSeconds;
-  if (goesOn) past_.pop_back();
-  sinceEdit_ = 0;
-  past_.push_back(present());
-  if (past_.size() > kMostEdits) past_.erase(past_.begin());
-}
-
-// Something failed: the present state takes the place of the one that could not be had.
-void Session::takeBack() {
-  past_.back() = present();
-  if (past_.size() > 1 && past_.back() == past_[past_.size() - 2]) past_.pop_back();
+  history_.add(present());
 }
 
 void Session::undo() {
-  if (past_.size() < 2) {
+  const std::optional<Past> past = history_.undo();
+  if (!past) {
     say("there is nothing to undo");
     return;
   }
 
-  past_.pop_back();
-  const Past& past = past_.back();
-  sinceEdit_ = kEditPauseSeconds;  // what is edited next is another edit
   restSeconds_ = 0;
-  state_.options = past.options;
+  state_.options = past->options;
   say("undone");
 
   // The members of the scene come with its next picture.
-  if (past.settings == state_.edited.settings && past.givenSky == state_.edited.givenSky) return;
-  state_.edited.settings = past.settings;
-  state_.edited.givenSky = past.givenSky;
+  if (past->settings == state_.edited.settings && past->givenSky == state_.edited.givenSky) return;
+  state_.edited.settings = past->settings;
+  state_.edited.givenSky = past->givenSky;
   postEdit();
 }
 
@@ -611,7 +589,7 @@ void Session::takeScene(bool elsewhere) {
   // A scene that was read again keeps the camera and the time.
   if (state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
   subject_ = subjectOf(scene());
-  past_.back() = present();
+  history_.replace(present());
   if (scene().cameraPath.empty()) pathTime_.reset();
   const Timeline before = state_.timeline;
   Timeline& timeline = state_.timeline;
@@ -666,7 +644,7 @@ SavedScene Session::saveScene() {
 void Session::changeOptions(const RenderOptions& options) {
   state_.options = options;
   restSeconds_ = 0;
-  remember();
+  history_.add(present());
 }
 
 void Session::chooseOption(const std::string& name, const std::string& value) {

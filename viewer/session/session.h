@@ -11,6 +11,7 @@
 
 #include "core/stopwatch.h"
 #include "viewer/session/camera_control.h"
+#include "viewer/session/history.h"
 #include "viewer/session/render_thread.h"
 #include "viewer/session/resolution_control.h"
 #include "viewer/session/scene_reader.h"
@@ -108,14 +109,6 @@ class Session {
   static constexpr double kMessageSeconds = 4;
 
  private:
-  // A state that undoing returns to.
-  struct Past {
-    std::vector<std::string> settings;
-    std::string givenSky;
-    RenderOptions options;
-    bool operator==(const Past&) const = default;
-  };
-
   Session(const ViewOptions& options, bool hasScene, const std::shared_ptr<OpenScene>& scene,
           std::function<void()> onChange);
   void drag(Drag& sum, const Message& message);
@@ -141,9 +134,7 @@ class Session {
   void lookFromAside();
   void forgetRays();
   void undo();
-  void remember();
   Past present() const { return {state_.edited.settings, state_.edited.givenSky, state_.options}; }
-  void takeBack();
   void watch(const std::string& scene);
   void load(const SceneChoice& choice);
   void reload();
@@ -202,9 +193,8 @@ class Session {
   int readEdits_ = 0;                       // edits_ when the last reading began
   std::vector<std::string> readSettings_;   // with which the scene was read first
   std::vector<std::string> savedSettings_;  // that a file or the command line holds
-  std::vector<Past> past_;                  // the present state is the last one
-  double sinceEdit_ = 0;                    // seconds
-  Box subject_;                             // of the scene
+  History history_{Past()};
+  Box subject_;  // of the scene
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
 
