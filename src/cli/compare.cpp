@@ -248,8 +248,17 @@ void printStages(FILE* out, const std::vector<StageDifference>& rows) {
 // bounces it moves two pixels of a hundred by two codes. An error in the code moves more.
 constexpr double kMostPixelsOffPct = 5, kMostEnergyOff = 0.02;
 
-// A NaN fails each of the conditions.
+// A NaN fails each of the conditions. Means leave out pixels that are not finite, so that these
+// fail by themselves.
 bool picturesPass(const CompareJob& job, const ImageDifference& d) {
+  const bool judged = job.tolerance || job.subjects.size() == 1;
+  if (judged && d.incomparable > 0) {
+    std::fprintf(stderr,
+                 "whit: %llu pixels are not finite in one picture and differ in the other\n",
+                 static_cast<unsigned long long>(d.incomparable));
+    return false;
+  }
+
   if (job.tolerance) {
     if (d.rmse <= *job.tolerance) return true;
     std::fprintf(stderr, "whit: the RMSE is %.6g, and --tolerance %g\n", d.rmse, *job.tolerance);

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kRelativeEpsilon = 1e-2;
 
+bool equalOrNan(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 // Measures linear values. Pixels that are not finite in either image are only counted, because one
 // of them would make every mean meaningless.
 void measureLinear(const Image& a, const Image& b, ImageDifference& difference) {
@@ -26,6 +28,9 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
   for (const auto i : indices(a.pixels)) {
     if (!isFinite(a.pixels[i]) || !isFinite(b.pixels[i])) {
       ++difference.nonFinite;
+      const Rgb &x = a.pixels[i], &y = b.pixels[i];
+      const bool equal = equalOrNan(x.x, y.x) && equalOrNan(x.y, y.y) && equalOrNan(x.z, y.z);
+      difference.incomparable += !equal;
       continue;
     }
 
@@ -126,7 +131,7 @@ ValueDifference differenceOf(std::span<const float> a, std::span<const float> b)
 
   for (const auto i : indices(a)) {
     const bool finite = std::isfinite(a[i]) && std::isfinite(b[i]);
-    const bool equal = a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]));
+    const bool equal = equalOrNan(a[i], b[i]);
     result.differing += !equal;
     result.incomparable += !equal && !finite;
     if (!finite) continue;

@@ -19,8 +19,9 @@ struct ImageDifference {
   double flipMean = 0;  // LDR-FLIP (Andersson et al. 2020), 67 pixels a degree
   int maxCode = 0;      // 8-bit sRGB steps, largest channel difference
   double pixelsGe1CodePct = 0, pixelsGe2CodesPct = 0;
-  double energyRatio = 1;       // mean(a) / mean(b); infinite when only b is black
-  std::uint64_t nonFinite = 0;  // pixels of either image with a NaN or an infinity
+  double energyRatio = 1;          // mean(a) / mean(b); infinite when only b is black
+  std::uint64_t nonFinite = 0;     // pixels of either image with a NaN or an infinity
+  std::uint64_t incomparable = 0;  // of these, pixels that are not equal; two NaN are
 };
 
 // `b` is the reference. Sizes and windows must match and hold a pixel, else Error(usage). Exposure

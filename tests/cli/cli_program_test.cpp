@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "command_json.h"
 #include "command_line/program.h"
 #include "has_text.h"
+#include "io/image/image_file.h"
 #include "run_command.h"
 
 namespace whit::cli {
@@ -334,6 +336,21 @@ TEST_F(Program, CompareFailsAboveTheTolerance) {
   EXPECT_TRUE(hasText(apart.out, "RMSE"));
   EXPECT_TRUE(apart.out.ends_with("8-bit codes or more; FAILED\n")) << apart.out;
   EXPECT_GT(std::filesystem::file_size(folder_ / "heat.png"), 100u);
+}
+
+// Means leave such pixels out.
+TEST_F(Program, CompareFailsByPixelsThatAreNotFinite) {
+  const std::string a = folder_ / "a.exr", b = folder_ / "b.exr";
+  Image image(2, 2);
+  writeExr(b, image, {});
+  image.at(1, 0).y = std::numeric_limits<float>::quiet_NaN();
+  writeExr(a, image, {});
+
+  succeed({"compare", a, a, "--tolerance", "0"});
+  for (const Words& files : {Words{a, b}, Words{b, a}}) {
+    expectFailed(runWhit(joined({"compare"}, joined(files, {"--tolerance", "9"}))), 1,
+                 "1 pixels are not finite in one picture");
+  }
 }
 
 }  // namespace

@@ -75,6 +75,9 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
 
   const ImageDifference d = compareImages(a, b);
   EXPECT_EQ(d.nonFinite, 2u);
+  EXPECT_EQ(d.incomparable, 2u);
+  EXPECT_EQ(compareImages(a, a).nonFinite, 1u);
+  EXPECT_EQ(compareImages(a, a).incomparable, 0u);
   EXPECT_DOUBLE_EQ(d.rmse, std::sqrt(0.25 / 3));
   EXPECT_TRUE(std::isfinite(d.flipMean));
 
