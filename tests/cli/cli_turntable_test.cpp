@@ -190,6 +190,49 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   EXPECT_NEAR(v.y, 2, 1e-6);
 }
 
+// Luma and chroma are those of BT.709 by hand, and the file says so.
+TEST(Film, ColorsAreThoseOfBt709) {
+  if (!hasFfmpeg() || std::system("command -v ffprobe >/dev/null") != 0) {
+    GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";
+  }
+  constexpr int kSide = 32;
+  constexpr double kRed = 231, kGreen = 63, kBlue = 48;
+  constexpr double kCodes = 2;  // what compression may change
+
+  const TemporaryFolder folder;
+  const std::string film = folder / "film.mp4", said = folder / "said", planes = folder / "planes";
+  std::vector<std::uint8_t> picture;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    for (const double code : {kRed, kGreen, kBlue, 255.0}) {
+      picture.push_back(static_cast<std::uint8_t>(code));
+    }
+  }
+  FilmPipe pipe(film, kSide, kSide, 10);
+  pipe.add(picture);
+  pipe.finish();
+
+  const std::string probe =
+      "ffprobe -v error -show_entries stream=color_range,color_space,color_transfer,"
+      "color_primaries -of json " +
+      film + " > " + said;
+  ASSERT_EQ(std::system(probe.c_str()), 0);
+  const Json stream = Json::parse(readFile(said))["streams"][0];
+  EXPECT_EQ(stream["color_range"], "tv");
+  EXPECT_EQ(stream["color_space"], "bt709");
+  EXPECT_EQ(stream["color_primaries"], "bt709");
+  EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
+
+  const std::string decode = "ffmpeg -v error -i " + film + " -f rawvideo " + planes;
+  ASSERT_EQ(std::system(decode.c_str()), 0);
+  const std::string codes = readFile(planes);
+  ASSERT_EQ(codes.size(), 3u * kSide * kSide / 2);
+  const double luma = (0.2126 * kRed + 0.7152 * kGreen + 0.0722 * kBlue) / 255;
+  const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(codes[i]); };
+  EXPECT_NEAR(at(0), 16 + 219 * luma, kCodes);
+  EXPECT_NEAR(at(kSide * kSide), 128 + 224 * (kBlue / 255 - luma) / 1.8556, kCodes);
+  EXPECT_NEAR(at(kSide * kSide * 5 / 4), 128 + 224 * (kRed / 255 - luma) / 1.5748, kCodes);
+}
+
 // The model is one of the real world, and the real ffmpeg makes the film.
 TEST(TurntableCommand, TheHelmetIsAFilm) {
   const std::string helmet = (dataFolder() / "gltf/FlightHelmet/FlightHelmet.gltf").string();
