@@ -446,9 +446,9 @@ class ServingNoScene : public Serving {
       "scene": [{"shape": "box", "motion": {"loop": true, "keys": [
         {"time": 0}, {"time": 10, "rotate": [0, 1, 0, 360]}]}}]})";
     setenv("WHIT_SCENES", shipped_.c_str(), 1);
-    view::ViewOptions options = options_;
-    options.scene.clear();
-    open_ = std::make_unique<ServedSession>(options, nullptr);
+    view::settleViewOptions(none_);  // scenes play
+    none_.scene.clear();
+    open_ = std::make_unique<ServedSession>(none_, nullptr);
     open_->watch(1);
   }
   ~ServingNoScene() override { unsetenv("WHIT_SCENES"); }
@@ -468,6 +468,7 @@ class ServingNoScene : public Serving {
   static std::string tables(const Shot& shot) { return *shot.tables; }
 
   const std::string shipped_ = folder_ / "shipped";
+  view::ViewOptions none_ = options_;
   std::unique_ptr<ServedSession> open_;
   std::shared_ptr<const Shot> shot_;
 };
