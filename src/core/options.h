@@ -146,7 +146,7 @@ template <typename Options, typename Use>
 decltype(auto) withOptions(Options& o, Use&& use) {
   // clang-format off
   return use(
-      // What everything else begins with.
+      // A preset sets options that are listed after it.
       Option{{.name = "quality", .words = "good|standard|reference",
               .help = "preset of other options, see below; good: a picture to show (default: "
                       "standard, one sample per pixel)",
@@ -157,7 +157,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.size},
 
-      // The view.
+      // These options choose the view.
       Option{{.name = "camera", .words = "NAME",
               .help = "one of the scene's cameras (default: the first)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
@@ -185,7 +185,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.crop},
 
-      // Samples of a pixel.
+      // These options choose the samples of a pixel.
       Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
               .help = "samples per pixel, for anti-aliasing",
               .everyday = true},
@@ -199,7 +199,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "samples them"},
              o.contrast},
 
-      // Reflected, refracted and sampled rays.
+      // These options bound reflected, refracted and sampled rays.
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
                       "called impulses",
@@ -239,7 +239,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .tab = Tab::none},
              o.maxRays},
 
-      // Light, surfaces and their approximations.
+      // These options approximate light and surfaces.
       Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
               .help = "soft shadows of area lights: shadow rays per hit and light with a radius; "
                       "1: to its center only",
@@ -285,7 +285,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "off"},
              o.shading.bend},
 
-      // How the work is done.
+      // These options choose how the work is done.
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
               .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
@@ -319,7 +319,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::acceleration},
              o.bvh},
 
-      // What the scene is made of.
+      // These options change what the scene has.
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",
@@ -335,7 +335,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::tables, .tab = Tab::none},
              o.disable},
 
-      // Display.
+      // These options turn radiance into codes.
       Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
               .help = "exposure of 8-bit output in stops; auto: measured in the view (default: 0, "
                       "of models without a scene file auto)",
@@ -351,7 +351,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .tab = Tab::none, .everyday = true},
              o.background},
 
-      // Sizes of the work.
+      // These options choose the sizes of the work.
       Option{{.name = "tile", .words = "N", .low = 1, .high = 4096,
               .help = "side of a tile in pixels",
               .rebuilds = Rebuild::workers, .changesPicture = false},
@@ -361,7 +361,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.queue},
 
-      // Results.
+      // These options choose and judge the results.
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "

@@ -1,4 +1,4 @@
-// What undoing returns to.
+// The history holds the states that undoing returns to.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace whit::view {
 
-// What the user has chosen about scene and picture.
+// A state is all that the user has chosen about scene and picture.
 struct Past {
   std::vector<std::string> settings;
   std::string givenSky;

@@ -1,4 +1,4 @@
-// The instant of a scene that moves.
+// The timeline holds the instant of a scene that moves.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace whit::view {
 
-// It plays by the clock, or the user sets it.
+// The instant follows the clock, or the user sets it.
 struct Timeline {
   bool there = false;  // the scene moves
   double seconds = 0, length = 0;

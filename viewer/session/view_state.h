@@ -1,4 +1,4 @@
-// What the window and the page show, and what the user has chosen.
+// The state is all that the window and the page show and that the user has chosen.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 
 namespace whit::view {
 
-// What a click on the picture selects in the scene; kNoCounterpart: nothing.
+// A click on the picture selects these in the scene; kNoCounterpart means nothing.
 struct Selection {
   std::size_t material = kNoCounterpart, light = kNoCounterpart;
 };
