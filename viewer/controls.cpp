@@ -78,7 +78,7 @@ void drawEffects(const ViewState& state, std::vector<std::string>& said) {
     ImGui::EndDisabled();
 
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", reason.because.c_str());
+    drawText(reason.because);
     ImGui::PopStyleColor();
   }
 }
@@ -91,7 +91,7 @@ void drawMeasured(const std::vector<KnobCost>& costs) {
   const std::vector<KnobCost> told = toldFromNoise(costs);
   for (const KnobCost& cost : told) {
     ImGui::Bullet();
-    ImGui::TextWrapped("%s: %s", cost.name.c_str(), costText(cost).c_str());
+    drawText(cost.name + ": " + costText(cost));
   }
   const std::size_t others = costs.size() - told.size();
   if (others > 0) ImGui::TextWrapped("%zu more make no difference above the noise", others);

@@ -15,22 +15,23 @@ namespace whit::view {
 
 namespace {
 
-constexpr float kPadding = 5;  // pixels of a label around its words
+// Pixels of a label around its words.
+float padding() { return margin() / 2; }
 
 // Labels are words below the panels, in lines that fit into the window.
-float widestLabel() { return ImGui::GetIO().DisplaySize.x - 2 * kMargin; }
+float widestLabel() { return ImGui::GetIO().DisplaySize.x - 2 * margin(); }
 ImVec2 labelSize(const std::string& text) {
   return ImGui::CalcTextSize(text.c_str(), nullptr, false, widestLabel());
 }
 
-// Draws a label on a shade that goes beyond it by kPadding and has round corners of that radius.
+// Draws a label on a shade that goes beyond it by padding() and has round corners of that radius.
 void drawLabel(const ImVec2& at, const std::string& text) {
   const ImVec2 size = labelSize(text);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
 
-  list.AddRectFilled(ImVec2(at.x - kPadding, at.y - kPadding),
-                     ImVec2(at.x + size.x + kPadding, at.y + size.y + kPadding),
-                     IM_COL32(0, 0, 0, 190), kPadding);
+  list.AddRectFilled(ImVec2(at.x - padding(), at.y - padding()),
+                     ImVec2(at.x + size.x + padding(), at.y + size.y + padding()),
+                     IM_COL32(0, 0, 0, 190), padding());
   list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, IM_COL32_WHITE, text.c_str(), nullptr,
                widestLabel());
 }
@@ -49,13 +50,14 @@ void drawColorBar(const ImVec2& at, float width, DebugView view) {
   }
 }
 
-constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
-                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing;
+// Names and paths may be longer than the window is wide.
+constexpr ImGuiWindowFlags kBareList = kBare | ImGuiWindowFlags_HorizontalScrollbar;
 
 // Begins a window in the middle above `bottom`; the other function ends it and returns its top.
 void beginAbove(float bottom, const char* name) {
-  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, bottom - kMargin),
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, bottom - margin()),
                           ImGuiCond_Always, ImVec2(0.5f, 1));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
   ImGui::Begin(name, nullptr, kBare);
@@ -83,6 +85,8 @@ int indexAt(double share, int pixels) { return static_cast<int>(share * pixels);
 
 }  // namespace
 
+float margin() { return ImGui::GetStyle().WindowPadding.x; }
+
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel) {
   const Image& image = frame.film.image;
@@ -108,22 +112,22 @@ void drawInspection(const std::string& lines, double pointerX, double pointerY) 
   // The text is right of and below the pointer, or on the other side where the window ends.
   const auto beside = [&](double pointer, float length, float room) {
     const auto at = static_cast<float>(pointer);
-    const bool fits = at + away + length + kPadding <= room;
-    return std::max(fits ? at + away : at - away - length, kPadding);
+    const bool fits = at + away + length + padding() <= room;
+    return std::max(fits ? at + away : at - away - length, padding());
   };
   drawLabel(ImVec2(beside(pointerX, size.x, window.x), beside(pointerY, size.y, window.y)), lines);
 }
 
 float drawStatus(const ViewState& state, float bottom) {
   const TracedFrame& frame = state.shown;
-  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
+  const float right = ImGui::GetIO().DisplaySize.x - margin();
 
   // Labels are aligned to the right and stacked upwards; draw() returns the left end of its label.
-  float top = bottom - kMargin;
+  float top = bottom - margin();
   const auto draw = [&](const std::string& text) {
     const ImVec2 size = labelSize(text);
-    top -= size.y + 2 * kPadding;
-    drawLabel(ImVec2(right - size.x, top + kPadding), text);
+    top -= size.y + 2 * padding();
+    drawLabel(ImVec2(right - size.x, top + padding()), text);
     return right - size.x;
   };
 
@@ -136,16 +140,16 @@ float drawStatus(const ViewState& state, float bottom) {
   const float left = draw(legend.empty() ? name : name + ": " + legend);
   if (legend.empty()) return top;
 
-  top -= ImGui::GetFontSize() + 2 * kPadding;
-  drawColorBar(ImVec2(left, top + kPadding), right - left, frame.request.view);
+  top -= ImGui::GetFontSize() + 2 * padding();
+  drawColorBar(ImVec2(left, top + padding()), right - left, frame.request.view);
   return top;
 }
 
 float drawMessage(const std::string& message, float bottom) {
   const ImVec2 size = labelSize(message);
-  const float top = bottom - kMargin - kPadding - size.y;
+  const float top = bottom - margin() - padding() - size.y;
   drawLabel(ImVec2((ImGui::GetIO().DisplaySize.x - size.x) / 2, top), message);
-  return top - kPadding;
+  return top - padding();
 }
 
 float drawError(const std::string& error, float bottom, std::vector<std::string>& said) {
@@ -159,11 +163,11 @@ float drawError(const std::string& error, float bottom, std::vector<std::string>
 
 void drawScenes(const std::vector<std::string>& recent, std::vector<std::string>& said) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float margin = ImGui::GetFontSize(), room = std::max(window.y - 6 * margin, margin);
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, margin), ImGuiCond_Always, ImVec2(0.5f, 0));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, room));
+  const float room = std::max(window.y - 8 * margin(), margin());
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, margin()), ImGuiCond_Always, ImVec2(0.5f, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x - 2 * margin(), room));
 
-  ImGui::Begin("scenes", nullptr, kBare & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::Begin("scenes", nullptr, kBareList);
   ImGui::TextUnformatted("Choose a scene, or drop a file here");
   const auto draw = [&](const char* title, const std::vector<std::string>& names) {
     if (names.empty()) return;
@@ -181,10 +185,11 @@ void drawScenes(const std::vector<std::string>& recent, std::vector<std::string>
 
 void drawCameras(const ViewState& state, std::vector<std::string>& said) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x - kMargin, kMargin), ImGuiCond_Always, ImVec2(1, 0));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, window.y - 2 * kMargin));
+  ImGui::SetNextWindowPos(ImVec2(window.x - margin(), margin()), ImGuiCond_Always, ImVec2(1, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0),
+                                      ImVec2(window.x - 2 * margin(), window.y - 2 * margin()));
 
-  ImGui::Begin("cameras", nullptr, kBare);
+  ImGui::Begin("cameras", nullptr, kBareList);
   ImGui::TextDisabled("cameras (L)");
   const std::vector<Camera>& cameras = state.scene->scene.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -198,12 +203,12 @@ void drawCameras(const ViewState& state, std::vector<std::string>& said) {
 
 void drawKeys(float bottom) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float width = std::min(58 * ImGui::GetFontSize(), window.x - 2 * kMargin);
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, kMargin), ImGuiCond_Always, ImVec2(0.5f, 0));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, bottom - 2 * kMargin));
+  const float width = std::min(58 * ImGui::GetFontSize(), window.x - 2 * margin());
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, margin()), ImGuiCond_Always, ImVec2(0.5f, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, bottom - 2 * margin()));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
 
-  ImGui::Begin("keys", nullptr, kBare & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::Begin("keys", nullptr, kBare);
   if (ImGui::BeginTable("keys", 2)) {
     ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch, 2);
@@ -211,7 +216,7 @@ void drawKeys(float bottom) {
       if (verb.keys.empty()) continue;
       for (const std::string_view text : {verb.keys, verb.help}) {
         ImGui::TableNextColumn();
-        ImGui::TextWrapped("%s", std::string(text).c_str());
+        drawText(std::string(text));
       }
     }
     ImGui::EndTable();

@@ -36,7 +36,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
 
     const RayTally& tally = stats.meter.tally[i];
     ImGui::TableNextColumn();
-    ImGui::TextWrapped("%s", kRayKinds[i].name.data());
+    drawText(std::string(kRayKinds[i].name));
     for (const double number :
          {static_cast<double>(tally.rays) / 1e3, mraysPerSecond(tally.rays, stats.frameMs),
           100 * lanesFilled(tally)}) {
@@ -59,11 +59,11 @@ void drawTime(const ViewState& state, std::vector<std::string>& said) {
   drawMeasured(state.costs);
 
   const Image& image = frame.film.image;
-  ImGui::TextWrapped("%s", aboutText(frame).c_str());
-  ImGui::TextWrapped("%d x %d, %d sample%s a pixel%s; %.2f ms traced, %.2f in Embree", image.width,
+  drawText(aboutText(frame));
+  drawText(formatted("%d x %d, %d sample%s a pixel%s; %.2f ms traced, %.2f in Embree", image.width,
                      image.height, frame.request.spp, frame.request.spp == 1 ? "" : "s",
                      errorText(frame.sampleError).c_str(), frame.stats.frameMs,
-                     frame.stats.embreeMs());
+                     frame.stats.embreeMs()));
   drawStages(frame.stats);
   drawRays(frame.stats, frame.effects);
 }
@@ -96,27 +96,36 @@ void drawTabs(std::string& chosen) {
 
 }  // namespace
 
+// Dear ImGui alone would break lines after periods as well, and so within numbers and file names.
+void drawText(const std::string& text) {
+  // All letters have the same width.
+  const float columns = ImGui::GetContentRegionAvail().x / ImGui::CalcTextSize("0").x;
+  std::string lines = wrapped(text, 0, 0, static_cast<std::size_t>(std::max(columns, 1.0f)));
+  lines.pop_back();  // the end of the last line
+  ImGui::TextWrapped("%s", lines.c_str());
+}
+
 // Moves the panel beside the point that was clicked, if it could cover that: to the wider side, or
 // in a narrow window above or below. Returns whether it moves.
 bool Panel::place(float bottom) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float em = ImGui::GetFontSize(), widest = std::min(em * kWidth, window.x - 2 * kMargin);
+  const float em = ImGui::GetFontSize(), widest = std::min(em * kWidth, window.x - 2 * margin());
   if (width_ == 0) {
-    left_ = top_ = kMargin;
+    left_ = top_ = margin();
     width_ = widest;
   }
 
   const float left = left_, top = top_;
   const auto clear = std::exchange(clear_, std::nullopt);
-  if (clear && clear->x > left_ - kMargin && clear->x < left_ + width_ + kMargin) {
+  if (clear && clear->x > left_ - margin() && clear->x < left_ + width_ + margin()) {
     const bool rightwards = clear->x<window.x / 2, above = clear->y> window.y / 2;
-    const float room = (rightwards ? window.x - clear->x : clear->x) - 3 * kMargin;
+    const float room = (rightwards ? window.x - clear->x : clear->x) - 3 * margin();
     const bool beside = room >= em * kLeastWidth;
 
     width_ = beside ? std::min(room, widest) : widest;
-    left_ = rightwards ? window.x - kMargin - width_ : kMargin;
-    top_ = beside || above ? kMargin : clear->y + 2 * kMargin;
-    lowest_ = beside || !above ? window.y : clear->y - kMargin;
+    left_ = rightwards ? window.x - margin() - width_ : margin();
+    top_ = beside || above ? margin() : clear->y + 2 * margin();
+    lowest_ = beside || !above ? window.y : clear->y - margin();
   }
 
   // It stays in the window, and ends above what is drawn at the bottom.
@@ -124,7 +133,7 @@ bool Panel::place(float bottom) {
   width_ = std::min(width_, widest);
   left_ = std::clamp(left_, 0.0f, std::max(window.x - width_, 0.0f));
   top_ = std::clamp(top_, 0.0f, std::max(window.y - least, 0.0f));
-  height_ = std::max(std::min(bottom, lowest_) - kMargin - top_, least);
+  height_ = std::max(std::min(bottom, lowest_) - margin() - top_, least);
   return left_ != left || top_ != top;
 }
 

@@ -12,7 +12,6 @@
 
 namespace whit::view {
 
-inline constexpr float kMargin = 10;         // pixels beside windows and labels
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture windows cover
 inline constexpr std::array kPanelTabs{"picture", "rays", "scene", "time"};
 
@@ -63,6 +62,9 @@ class Panel {
 // The functions below draw between ImGui's NewFrame and Render; those of controls.cpp, drawScene()
 // and drawRayTree() also between its Begin and End.
 
+// panel.cpp: draws words in lines that fit.
+void drawText(const std::string& text);
+
 // controls.cpp: presets, options, effects and the choice of view.
 void drawOptions(const ViewState& state, std::vector<std::string>& said);
 // Lists the costs that exceed the noise, the largest first.
@@ -77,7 +79,10 @@ std::vector<std::string> drawScene(const Sky& ownSky, Selection& unfolds, Edited
 std::size_t drawRayTree(const ViewState& state, bool& lines, std::vector<std::string>& said);
 void drawRayLines(const RayPick& pick, const Camera& camera, std::size_t pointedAt);
 
-// overlay.cpp: all else that is drawn over the picture. These three draw above `bottom` and return
+// overlay.cpp: all else that is drawn over the picture.
+// Pixels beside windows and labels; they follow the scale of the display.
+float margin();
+// These three draw above `bottom` and return
 // the top of what they drew.
 // A bar to play and to choose the time, if the scene moves.
 float drawTimeline(const Timeline& timeline, float bottom, std::vector<std::string>& said);

@@ -75,8 +75,8 @@ class RayTreeTab {
 
     const auto draw = [&](const char* name, const Rgb& pixel) {
       const auto codes = codesOf(pixel, options_);
-      ImGui::TextWrapped("%s %s, codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0],
-                         codes[1], codes[2]);
+      drawText(formatted("%s %s, codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0],
+                         codes[1], codes[2]));
     };
 
     // Both renderers trace the pixel, so that a difference between them shows.
@@ -104,8 +104,8 @@ class RayTreeTab {
     const bool open = ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", "");
     point(number);
     ImGui::SameLine();
-    ImGui::TextWrapped("%s: %s, %d codes", rowOf(n.kind).name.data(),
-                       pick_.words[number].hit.c_str(), codesAddedBy(tree_, number, options_));
+    drawText(formatted("%s: %s, %d codes", rowOf(n.kind).name.data(),
+                       pick_.words[number].hit.c_str(), codesAddedBy(tree_, number, options_)));
     ImGui::PopStyleColor();
 
     if (open) {
@@ -120,7 +120,7 @@ class RayTreeTab {
     const RayText& words = pick_.words[number];
     const auto draw = [&](const std::string& line) {
       ImGui::Bullet();
-      ImGui::TextWrapped("%s", line.c_str());
+      drawText(line);
       point(number);
     };
 
@@ -154,7 +154,7 @@ void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width,
 
 std::size_t drawRayTree(const ViewState& state, bool& lines, std::vector<std::string>& said) {
   if (!state.rays.scene) {
-    ImGui::TextWrapped(
+    drawText(
         "Click on the picture: the rays of that pixel are listed here and drawn into the scene.");
     return kNoCounterpart;
   }

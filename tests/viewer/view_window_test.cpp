@@ -1,9 +1,11 @@
 // whit-view itself, with a scripted user on a virtual display.
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include <cstring>
 
 #include "has_text.h"
+#include "viewer/panel.h"
 #include "viewer/session/view_files.h"
 #include "viewer/window.h"
 #include "viewer_fixture.h"
@@ -279,6 +281,45 @@ TEST_F(Viewer, CamerasAreChosenFromTheirList) {
       "wait 3 frames\nwait sharp\nkey C\n",
       {"--size", "500x300"});
   EXPECT_TRUE(hasText(outcome.out, " --camera=side"));
+}
+
+TEST_F(Viewer, TheListOfCamerasStaysInTheWindow) {
+  std::string scene = cli::readFile(folder_ / "tiny.json");
+  const std::string name = "side";
+  scene.replace(scene.find(name), name.size(), std::string(100, 'x'));
+  std::ofstream(folder_ / "tiny.json") << scene;
+
+  play(
+      "asked\nbare\nwait sharp\nscreenshot closed.png\nkey L\nwait 5 frames\nwait sharp\n"
+      "screenshot open.png\n",
+      {"--size", "300x200"});
+
+  constexpr int kBeside = 9;  // pixels, less than the margin of the list
+  const RawImage closed = codes("closed.png"), open = codes("open.png");
+  EXPECT_TRUE(sameIn(open, closed, 0, 0, kBeside, 200));
+  EXPECT_FALSE(sameIn(open, closed, kBeside, 0, 30, 200));
+}
+
+// Dear ImGui alone breaks lines after the period.
+TEST(PanelText, DoesNotBreakNumbers) {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.DisplaySize = ImVec2(300, 200);
+  unsigned char* atlas = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsAlpha8(&atlas, &width, &height);
+
+  ImGui::NewFrame();
+  ImGui::Begin("panel");
+  const auto widthOf = [](const char* text) { return ImGui::CalcTextSize(text).x; };
+  ImGui::BeginChild("room", ImVec2(widthOf("adds 0.00"), 0));
+  drawText("adds 0.00054");
+  EXPECT_EQ(ImGui::GetItemRectSize().x, widthOf("0.00054"));
+  ImGui::EndChild();
+  ImGui::End();
+  ImGui::EndFrame();
+  ImGui::DestroyContext();
 }
 
 // The first edit is of the lamp, the second one of its position.
