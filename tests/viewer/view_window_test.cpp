@@ -313,8 +313,8 @@ TEST(PanelText, DoesNotBreakNumbers) {
   ImGui::NewFrame();
   ImGui::Begin("panel");
   const auto widthOf = [](const char* text) { return ImGui::CalcTextSize(text).x; };
-  ImGui::BeginChild("room", ImVec2(widthOf("adds 0.00"), 0));
-  drawText("adds 0.00054");
+  ImGui::BeginChild("room", ImVec2(widthOf("add 0.00"), 0));
+  drawText("add 0.00054");
   EXPECT_EQ(ImGui::GetItemRectSize().x, widthOf("0.00054"));
   ImGui::EndChild();
   ImGui::End();
