@@ -2,12 +2,14 @@
 // signature and is recognized by its name.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/display.h"
 #include "core/image.h"
 #include "core/warnings.h"
 #include "io/memory_budget.h"
@@ -54,7 +56,14 @@ bool holdsRadiance(const std::string& path);
 
 // Pixel number `i` as linear RGB: 8-bit codes are decoded from sRGB, gray is spread to three
 // channels, alpha is dropped.
-Rgb linearPixel(const RawImage& raw, std::size_t i);
+inline Rgb linearPixel(const RawImage& raw, std::size_t i) {
+  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
+  const std::size_t green = first + (raw.channels < 3 ? 0 : 1), blue = 2 * green - first;
+  if (raw.linear) return Rgb(raw.values[first], raw.values[green], raw.values[blue]);
+
+  const std::array<float, 256>& linear = linearOfCodes();
+  return Rgb(linear[raw.codes[first]], linear[raw.codes[green]], linear[raw.codes[blue]]);
+}
 
 // Reads an image as linear RGB, see linearPixel(). An EXR keeps its data window (the part inside
 // the display window), and floats keep their bits, NaN and infinities included.
