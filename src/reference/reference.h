@@ -110,8 +110,8 @@ class Tracer {
   // Returns the mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
-  // Returns the standard error of pixel(), for the mean of the three colors and as if samples were
-  // independent; infinity for one sample.
+  // Returns the standard error of pixel(), as the root mean square of those of the three colors and
+  // as if samples were independent; infinity for one sample.
   double standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
   // Return the radiance along the ray through the pixel's center alone, and the surface that it

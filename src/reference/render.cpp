@@ -103,12 +103,12 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
 
 // By the running sum of squared deviations (Welford 1962), which does not cancel.
 double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  double mean = 0, deviations = 0, taken = 0;
+  RgbD mean;
+  double deviations = 0, taken = 0;
   for (const auto s : indices(samples_)) {
-    const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
-    const double value = (sample.x + sample.y + sample.z) / 3, before = value - mean;
+    const RgbD sample = sampled(camera, x, y, samples_[s], s, counts), before = sample - mean;
     mean += before / ++taken;
-    deviations += before * (value - mean);
+    deviations += dot(before, sample - mean) / 3;
   }
   return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken) : kInfinity;
 }

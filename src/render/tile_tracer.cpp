@@ -309,9 +309,8 @@ void TileTracer::addSample(const Frame& frame) {
   // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
   for (const auto i : indices(n)) {
-    const auto [r, g, b] = RgbD(radiance.rgb.at(i));
-    const double mean = (r + g + b) / 3;
-    sums_[i].squares += mean * mean;
+    const RgbD sample(radiance.rgb.at(i));
+    sums_[i].squares += dot(sample, sample) / 3;
   }
 }
 
