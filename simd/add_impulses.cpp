@@ -158,9 +158,9 @@ HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
 // The scalar reference is underMirror in src/reference/add_impulses.cpp.
 HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& mirror,
                           const V3& others) {
-  const V3 limited = Limited(color, Add3(mirror, others));
-  if (HWY_LIKELY(AllFalse(lanes.coated))) return limited;
-  return Select3(lanes.coated, Mul3(color, Complement3(mirror)), limited);
+  const V3 taken = Add3(mirror, others);
+  if (HWY_LIKELY(AllFalse(lanes.coated))) return Limited(color, taken);
+  return Limited(Select3(lanes.coated, Mul3(color, Complement3(mirror)), color), taken);
 }
 
 // Returns the share of the light below their mirrors that the lobes of the surfels at i take, and 0

@@ -53,11 +53,11 @@ double cosineOf(const Surfel& surfel) {
 }
 
 // Returns how much of `color`, which lies under the mirror, is sent out if layers between them send
-// out the share `others`. Under a coat it is the light that the coat lets through.
+// out the share `others`. A coat dims it even where there is light enough for both.
 RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror,
                  const RgbD& others = {}) {
-  if (material.coat) return color * (RgbD(1.0) - mirror);
-  return limited(color, mirror + others);
+  const RgbD below = material.coat ? color * (RgbD(1.0) - mirror) : color;
+  return limited(below, mirror + others);
 }
 
 // The share of the light that the interface does not reflect, but for facets, which are a lobe.
