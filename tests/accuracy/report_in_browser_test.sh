@@ -2,7 +2,7 @@
 # The reports of whit accuracy, whit effects and whit-verify as a browser lays them out, 360, 800 and 1400
 # pixels wide: every table has as many headers as cells, each cell of "Every point" stands below its header,
 # nothing is wider than the page, the charts' letters can be read and do not overlap, and a click on a row or
-# a point shows its picture beside the reference.
+# a point shows its picture beside the reference, in sight, and the chart stands still.
 # report_in_browser_test.sh WHIT VERIFY [FOLDER]: with a folder, screenshots are kept there.
 set -euo pipefail
 whit=$1 verify=$2 keep=${3:-}
@@ -83,7 +83,11 @@ if (data.report === 'accuracy' && links.length < 20) say(`${links.length} links`
 links.forEach(link => {
   const row = link.querySelector('[data-point]').dataset.point;
   const figure = document.querySelector(link.getAttribute('href'));
-  link.dispatchEvent(new MouseEvent('click', {bubbles: true, cancelable: true}));
+  link.scrollIntoView({block: 'center'});
+  const {top} = link.getBoundingClientRect();
+  link.dispatchEvent(new MouseEvent('click', {bubbles: true, cancelable: true, clientY: top}));
+  const moved = link.getBoundingClientRect().top - top;
+  if (moved) say(`${row}: the chart moves by ${moved} pixels`);
   const shown = document.querySelector('.wipe .over'), said = document.querySelector('.wipe .l');
   const place = shown.getBoundingClientRect();
   if (place.bottom <= 0 || place.top >= innerHeight) say(`${row}: its picture is out of sight`);
@@ -103,8 +107,8 @@ chrome() {
     --virtual-time-budget=10000 "$@" 2> "$folder/browser.log"
 }
 
-# frame PAGE WIDTH
-frame() { echo "<iframe src=\"$1\" style=\"border:0;width:$2px;height:2600px\"></iframe>"; }
+# frame PAGE WIDTH HEIGHT
+frame() { echo "<iframe src=\"$1\" style=\"border:0;width:$2px;height:$3px\"></iframe>"; }
 
 widths=(360 800 1400) names=()
 # add PAGE NAME: frames of the three widths in frames.html.
@@ -113,10 +117,10 @@ add() {
   cat "$page" "$folder/measures.html" > "$(dirname "$page")/$name-checked.html"
   for width in "${widths[@]}"; do
     names+=("$name at $width pixels")
-    frame "$(basename "$(dirname "$page")")/$name-checked.html" "$width" >> "$folder/frames.html"
+    frame "$(basename "$(dirname "$page")")/$name-checked.html" "$width" 740 >> "$folder/frames.html"
     if [ -n "$keep" ]; then
       mkdir -p "$keep"
-      { echo '<body style="margin:0">' && frame "file://$page" "$width"; } > "$folder/frame.html"
+      { echo '<body style="margin:0">' && frame "file://$page" "$width" 2600; } > "$folder/frame.html"
       chrome --window-size="$width,2600" --screenshot="$keep/report-$name-$width.png" \
         "file://$folder/frame.html"
     fi
