@@ -41,7 +41,7 @@ constexpr Series kSeries[] = {
     {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16"},
     {"threads-scaling", "1, 2, 4, ... threads as separate runs, with speed-up and efficiency",
      "threads", "..."},
-    {"ab-effects", "kernels with the scene's effects and with every effect as two runs", "effects",
+    {"ab-effects", "plans for the scene's effects and for every effect as two runs", "effects",
      "auto|all", true},
 };
 constexpr Series kOneRun{"", "", "", ""};

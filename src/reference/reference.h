@@ -1,7 +1,8 @@
 // The scalar reference: Whitted's recursion in double precision, one ray at a time. No SIMD, no
 // queues, no tiles. It shares no formula with the kernels. Both modes share the tables of `bake`,
-// the random numbers of `sampling` and two rules of `surfaces`: which of several surfaces in one
-// place is hit, and the media that a ray starts in (tests/README.md, "What both modes share").
+// the random numbers of `sampling` and three rules of `surfaces`: which of several coincident
+// surfaces is hit, the media that a ray starts in, and the channels roughness, metallic and motion
+// (tests/README.md, "What both modes share").
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/path_observer.h"
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
 #include "surfaces/channel_values.h"
@@ -37,7 +38,7 @@ struct Settings {
 // Counters of the rays traced, by their kind.
 class RayCounts {
  public:
-  // Sums over the samples of RadianceColumns::ended and of clearR, clearG and clearB.
+  // Sums over the samples of RadianceColumns::ended and RadianceColumns::clear.
   double ended = 0;
   RgbD clear;
 

@@ -65,23 +65,24 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
   const std::vector<Vec2f> pattern = samplePattern(options.spp);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
+  std::vector<RgbD> means(first.pixels.size());  // of the probes
   const double scale = std::exp2(double{options.exposure.ev});
   forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
     if (edges[first.index(x, y)] == 0) return;
-    PixelProbes& pixel = probes.at(x, y);
+    RgbD& mean = means[first.index(x, y)];
     for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
       const std::size_t number = s;
       const RgbD value = tracer.sampled(frame, x, y, pattern[number], number, own);
-      addSample(pixel.total, value, s + 1.0);
-      pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
+      addSample(mean, value, s + 1.0);
+      probes.at(x, y).codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
     }
-    first.at(x, y) = Rgb(pixel.total);
+    first.at(x, y) = Rgb(mean);
   });
   forEach(image.window, [&](int x, int y, RayCounts& own) {
     image.at(x, y) = first.at(x, y);
     if (options.spp <= kProbeSamples || edges[first.index(x, y)] == 0) return;
     if (!probes.differ(x, y, options.contrast)) return;
-    RgbD mean = probes.at(x, y).total;
+    RgbD mean = means[first.index(x, y)];
     for (std::size_t s = kProbeSamples; s < pattern.size(); ++s) {
       addSample(mean, tracer.sampled(frame, x, y, pattern[s], s, own), static_cast<double>(s + 1));
     }

@@ -27,10 +27,10 @@ class SampleSums {
   SampleSum& at(int x, int y) { return sums_[shape_.index(x, y)]; }
   const Crop& window() const { return shape_.window; }
 
-  // The standard error of the mean of `samples` samples a pixel, 2 or more: its mean over the
-  // window, as a share of the window's mean radiance (of the mean channel). As if samples were
-  // independent; spread evenly, as those of a pattern are, they are off by less. Not its root mean
-  // square, which a few bright samples decide. 0 for black.
+  // Returns the standard error of a pixel's mean of `samples` samples, 2 or more, as the mean over
+  // the window divided by the window's mean radiance (of the mean channel); 0 for a black window.
+  // It takes samples for independent, so it overestimates the error of evenly spread ones. It is no
+  // root mean square, because a few bright samples would decide that.
   double relativeError(int samples) const;
 
  private:

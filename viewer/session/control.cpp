@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 8> kFirst{"spp",      "depth",         "g
 std::vector<Control> controlsOf(const RenderOptions& options) {
   std::vector<Control> controls;
   forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
-    if (spec.tab == Tab::none) return;
+    if (!spec.inPanel) return;
     controls.push_back(describeControl(spec, field));
     controls.back().first = std::ranges::find(kFirst, spec.name) != kFirst.end();
   });
