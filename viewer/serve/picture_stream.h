@@ -1,10 +1,10 @@
-// The pictures for one page: which tiles are sent, as what, and when. Without knowledge of sockets
-// and clock.
+// The pictures for one page: which tiles are sent, in which format, and when. A stream knows
+// neither sockets nor the clock.
 //
 // In motion the tiles that changed are sent as JPEG, at rest all that are not exact yet as PNG, a
-// few at a time. The page acknowledges each message that it has drawn. How long that takes beyond
-// the least time says how full the link is; by it the number of messages under way, the quality and
-// the pixels of pictures in motion are chosen.
+// few at a time. The page acknowledges each message that it has drawn. How long that takes, beyond
+// the shortest time so far, tells how full the link is. The number of messages under way, the
+// quality and the number of pixels in motion follow from it.
 #pragma once
 
 #include <cstdint>
@@ -36,14 +36,15 @@ class PictureStream {
   // send. With `exact` they are lossless.
   Tiles next(const DisplayImage& picture, bool exact, double nowMs);
 
-  // The page has drawn the message of this number. Returns false if it was not under way.
+  // Notes that the page has drawn the message of this number. Returns false if it was not under
+  // way.
   bool acknowledge(std::uint32_t number, double nowMs);
-  // Time for which the oldest message has been under way; 0: there is none.
+  // Returns the time for which the oldest message has been under way, or 0 if there is none.
   double waitedMs(double nowMs) const {
     return underWay_.empty() ? 0 : nowMs - underWay_.front().ms;
   }
 
-  // Most pixels of a picture in motion that the link is good for.
+  // Returns the largest number of pixels in motion that the link can carry.
   double mostPixels() const { return mostPixels_; }
   int quality() const { return quality_; }
 

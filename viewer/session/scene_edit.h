@@ -38,12 +38,12 @@ LoadOptions editedLoad(const SceneEdit& edit);
 
 // These add settings that make the members of a scene what they are now: those of a material or
 // light that have changed, the sky, or the ambient light.
-void state(const Material& before, const Material& after, const Vec3d& origin,
-           std::vector<std::string>& settings);
-void state(const Light& before, const Light& after, const Vec3d& origin,
-           std::vector<std::string>& settings);
-void stateSky(const EditedScene& scene, std::vector<std::string>& settings);
-void stateAmbient(const EditedScene& scene, std::vector<std::string>& settings);
+void addMemberSettings(const Material& before, const Material& after, const Vec3d& origin,
+                       std::vector<std::string>& settings);
+void addMemberSettings(const Light& before, const Light& after, const Vec3d& origin,
+                       std::vector<std::string>& settings);
+void addSkySetting(const EditedScene& scene, std::vector<std::string>& settings);
+void addAmbientSetting(const EditedScene& scene, std::vector<std::string>& settings);
 
 // Returns the sky kNoSky, kStudio or that of an image file, without its image.
 Sky skyFrom(const std::string& source);

@@ -1,4 +1,4 @@
-// The state is all that the window and the page show and that the user has chosen.
+// The state of the viewer: all that the window and the page show, and all that the user has chosen.
 #pragma once
 
 #include <limits>
