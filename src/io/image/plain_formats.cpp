@@ -197,7 +197,7 @@ class PlainReader {
                        : columns * rows * pixelBytes + (rows - 1) * padding);
     image_.codes.resize(columns * rows * channels);
 
-    std::uint32_t left = 0;  // of the packet
+    std::uint32_t left = 0;  // pixels left in the packet
     bool isRun = false;
     Codes codes{};
 
