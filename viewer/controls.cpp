@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/text.h"
-#include "viewer/panel.h"
+#include "viewer/controls.h"
 #include "viewer/session/control.h"
 
 namespace whit::view {
@@ -85,10 +85,10 @@ void drawEffects(const ViewState& state, std::vector<std::string>& said) {
 
 }  // namespace
 
-void drawMeasured(const std::vector<KnobCost>& costs) {
+void drawCosts(const std::vector<KnobCost>& costs) {
   if (costs.empty()) return;
 
-  const std::vector<KnobCost> told = toldFromNoise(costs);
+  const std::vector<KnobCost> told = significantCosts(costs);
   for (const KnobCost& cost : told) {
     ImGui::Bullet();
     ImGui::TextWrapped("%s: %s", cost.name.c_str(), costText(cost).c_str());

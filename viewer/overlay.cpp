@@ -1,4 +1,4 @@
-#include "viewer/panel.h"
+#include "viewer/overlay.h"
 
 #include <imgui.h>
 
@@ -9,6 +9,8 @@
 #include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "viewer/panel.h"
+#include "viewer/session/verbs.h"
 #include "viewer/window.h"
 
 namespace whit::view {

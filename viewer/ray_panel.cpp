@@ -1,4 +1,4 @@
-#include "viewer/panel.h"
+#include "viewer/ray_panel.h"
 #include "viewer/window.h"
 
 #include <imgui.h>

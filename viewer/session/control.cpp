@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/text.h"
+
 namespace whit::view {
 
 namespace {
@@ -24,7 +26,7 @@ std::vector<Control> controlsOf(const RenderOptions& options) {
 }
 
 const std::vector<std::string>& presetNames() {
-  static const std::vector<std::string> kNames{"good", "standard", "reference"};
+  static const std::vector<std::string> kNames = namesIn(qualityPresets());
   return kNames;
 }
 

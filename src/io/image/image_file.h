@@ -85,8 +85,8 @@ struct ImageLayer {
 
 // Writes linear RGB with metadata as string attributes; the data window is image.window. An image
 // without pixels has no colors, only layers. `layers` keep all their bits, so dwaa with layers is
-// Error(usage). Up to `threads` threads compress the
-// pixels; the bytes do not depend on their number.
+// Error(usage). Up to `threads` threads compress the pixels; the bytes do not depend on their
+// number.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage = ExrStorage::zip, int threads = 1,
               const std::vector<ImageLayer>& layers = {});
@@ -105,14 +105,14 @@ std::string encodeJpeg(const DisplayImage& image, int quality = 93);
 // are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
 
-// 16-bit values, one or three for each pixel, rows from the top.
-struct DeepImage {
+// An image of 16-bit values, one or three for each pixel, in rows from the top.
+struct Image16 {
   int width = 0, height = 0, channels = 1;
   std::vector<std::uint16_t> values;
 };
 
-// `isSrgb`: three values are sRGB colors.
-void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+// Writes a 16-bit PNG. `isSrgb` says that the three values of a pixel are an sRGB color.
+void writePng(const std::string& path, const Image16& image, bool isSrgb,
               const ImageMetadata& metadata);
 
 // Decodes a PNG and returns its text chunks. Throws Error(io) if it cannot be read, badScene if it
