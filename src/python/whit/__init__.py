@@ -76,7 +76,7 @@ class Picture:
 
     rgba: np.ndarray = _native("rgba", (
         "sRGB codes after exposure and tone curve, and alpha: (height, width, 4), uint8, top row "
-        "first. Alpha is 255 but with background='transparent'."))
+        "first. Alpha is 255 unless background='transparent'."))
 
     @property
     def srgb(self) -> np.ndarray:
@@ -148,8 +148,8 @@ class Picture:
         return self._statistics.get("receipt")
 
     def write(self, path: Union[str, os.PathLike]) -> None:
-        """Writes .exr (linear, float), .png or .jpg (8-bit sRGB), with the render's options but for
-        .jpg. "x.depth.exr" and "x.depth.png" hold that channel alone."""
+        """Writes .exr (linear, float), .png or .jpg (8-bit sRGB), with the render's options except
+        in .jpg. "x.depth.exr" and "x.depth.png" hold that channel alone."""
         self._object.write(os.fspath(path))
 
     def png(self) -> bytes:
