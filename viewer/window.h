@@ -121,7 +121,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   unsigned int texture_ = 0;
   ImageSize size_;     // size of the picture; zero: there is none
-  ImageSize madeFor_;  // size of the window that it was made for
+  ImageSize madeFor_;  // size of the window that the picture was made for
   double cursorX_ = 0, cursorY_ = 0;
   double scale_ = 1;
   Drag Drags::*dragged_ = nullptr;      // null: no button is down on the picture

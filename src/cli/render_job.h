@@ -1,5 +1,4 @@
-// What whit render and whit turntable are asked for: their options, and the requests that they
-// refuse.
+// The options of whit render and whit turntable, and the requests that they refuse.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// From the words of a command line to options.
+// Parses the words of a command line into options.
 #pragma once
 
 #include <optional>

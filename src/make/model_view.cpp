@@ -91,7 +91,7 @@ class AngleSum {
 bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12, kClosed = -0.9;
 
-  AngleSum halves;  // of solid angles
+  AngleSum halves;  // sums half of each solid angle
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);

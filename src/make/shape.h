@@ -55,7 +55,7 @@ struct Shape {
   }
 
   std::vector<ShapePart> parts;
-  // Where copies stand, in the shape's own space. Empty: one copy as it is.
+  // The places of copies in the shape's own space. Empty: one copy as it is.
   std::vector<Affine> placements;
 };
 

@@ -20,9 +20,9 @@ struct RunSummary {
   RenderOptions options;
   Machine machine;
   EffectSet effects;
-  std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
+  std::uint64_t triangles = 0, spheres = 0;  // counted once for each instance
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;  // those that count; none if --resume kept all images
+  std::vector<FrameStats> frames;  // the frames that count; none if --resume kept all images
   std::vector<double> floorMs;     // empty without --floor
   // Sums over the frames of kProcessorEvents; empty where they were not counted.
   std::vector<double> events;

@@ -23,7 +23,7 @@ void makeFolder(const std::string& path);
 // Does the same for the value of --json, which may also be empty or "-".
 void requireJsonWritable(const std::string& path);
 
-// Where pictures may go besides files.
+// The name that stands for standard output in place of a file.
 inline constexpr const char* kStandardOutput = "-";
 
 inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dwaa"};

@@ -17,7 +17,7 @@
 namespace whit::serve {
 
 inline constexpr int kTileSide = 128;              // pixels
-inline constexpr std::size_t kExactBytes = 48000;  // of PNG tiles in one message, about
+inline constexpr std::size_t kExactBytes = 48000;  // about this many of PNG tiles in a message
 
 // A message for the page: the bytes of its tiles, and a list of their places and sizes.
 struct Tiles {
@@ -57,7 +57,7 @@ class PictureStream {
 
   enum class TileState : std::uint8_t { stale, lossy, exact };  // as the page has it
   DisplayImage last_;                                           // the newest picture
-  std::vector<TileState> states_;  // of its tiles, when all messages are drawn
+  std::vector<TileState> states_;  // states of its tiles once all messages are drawn
   std::deque<Sent> underWay_;
   std::uint32_t number_ = 0;
   int window_ = 3;  // messages that may be under way

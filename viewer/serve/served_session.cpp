@@ -15,9 +15,9 @@ namespace whit::serve {
 
 namespace {
 
-constexpr std::size_t kMostMessages = 4096;          // that wait for the loop
+constexpr std::size_t kMostMessages = 4096;          // messages that may wait for the loop
 constexpr int kLeastSide = 16, kLargestSide = 4096;  // pixels of a page's picture
-constexpr double kMostWindowPixels = 4e6;            // of a page's picture
+constexpr double kMostWindowPixels = 4e6;            // largest number of pixels
 constexpr double kIdleSeconds = 0.25;                // longest wait of the loop
 constexpr double kLongestSeconds = 0.1;              // longest step of the camera
 constexpr std::chrono::milliseconds kWait{200};      // longest wait of a page for a shot

@@ -66,7 +66,7 @@ class CameraControl {
   Box model_, reach_;  // bounds of the model, and of the points that may be orbited
   // In double, so that slow motion far from the origin does not stall.
   Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length
-  double elevation_ = 0;    // of the view over the plane perpendicular to up_, radians
+  double elevation_ = 0;    // angle of the view above the plane perpendicular to up_, radians
   double distance_ = 1;     // to the point that is orbited
 };
 

@@ -73,7 +73,7 @@ struct TracedFrame {
   RenderOptions options;  // the renderer's, with the sampled rays that a plain picture leaves out
   std::string surfaces;   // the number of triangles and spheres, in words
   std::string animation;  // the animation that was asked for
-  std::string warning;    // that an edit has given; empty: none
+  std::string warning;    // the warning of an edit; empty: none
   Film film;
   FrameStats stats;
   ImageMetadata metadata;
@@ -138,7 +138,7 @@ struct TraceCalls {
   // Called between passes, once the picture has more samples than the finished one of the same
   // view.
   std::function<void(UnfinishedFrame)> showUnfinished;
-  Progress* progress = nullptr;  // of the scalar reference
+  Progress* progress = nullptr;  // gets the progress of the scalar reference
 };
 
 // Makes the pictures that requests ask for. It belongs to one thread.
@@ -174,7 +174,7 @@ class FrameTracer {
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
-  const bool warns_;  // of edits, on standard error
+  const bool warns_;  // prints the warnings of edits on standard error
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
   std::string warning_;                        // warning of edits, until a picture shows it
@@ -182,7 +182,7 @@ class FrameTracer {
   std::optional<Film> reference_;              // empty: not traced, or given up
   std::optional<FrameRequest> referenceFor_;   // the picture of reference_, without its view
   std::optional<FrameRequest> finished_;       // the last picture that was not given up
-  double msPerSample_ = 0;  // of the last picture that was not plain; 0: none yet
+  double msPerSample_ = 0;  // in the last picture that was not plain; 0: there was none
 };
 
 }  // namespace whit::view

@@ -5,7 +5,7 @@ namespace whit::view {
 namespace {
 
 constexpr double kEditPauseSeconds = 0.5;  // a longer pause begins another edit
-constexpr std::size_t kMostEdits = 200;    // that can be undone
+constexpr std::size_t kMostEdits = 200;    // limit on the edits that can be undone
 
 }  // namespace
 

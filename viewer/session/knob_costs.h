@@ -13,11 +13,11 @@ namespace whit::view {
 // The cost of an option or an effect at the present view. Frames with the present setting and with
 // the option's cheapest one, or without the effect, are timed in turns.
 struct KnobCost {
-  std::string name;         // of the option, or of the effect
+  std::string name;         // name of the option or of the effect
   std::string other;        // the setting to compare with: the cheapest, or "off" for an effect
   FrameStats now, then;     // with the present setting and with the other
   accuracy::Timing timing;  // its ratio is that of the other setting's time to the present one's
-  double presentMs = 0;     // of a frame of the whole window with the present setting
+  double presentMs = 0;     // time of a frame of the whole window with the present setting
 
   // The time that the present setting adds to a frame of the whole window.
   double ms() const { return presentMs * (1 - timing.ratio); }

@@ -79,7 +79,7 @@ class ResolutionControl {
   std::size_t level_ = 0;        // index of the steps in motion
   std::size_t step_ = 0;         // index of the steps at rest
   double windowPixels_ = 0, mostPixels_ = 1e9;
-  double msPerSample_ = 0;  // of plain samples; 0: nothing learned yet
+  double msPerSample_ = 0;  // time of a plain sample; 0: not known yet
   // Plain samples that cost as much as one with sampled rays; a guess until one was traced.
   double sampledRaysFactor_ = 4;
 };

@@ -16,9 +16,9 @@ struct EditedScene {
   std::vector<std::string> settings;
   std::string givenSky;  // replaces the scene's own (--sky); empty: none does
   bool isModel = false;
-  Vec3d origin;  // of the scene's coordinates, in those of the file
+  Vec3d origin;  // origin of the scene's coordinates, in those of the file
   std::vector<Material> materials;
-  std::vector<Light> lights;  // those that move, where they start
+  std::vector<Light> lights;  // lights that move are where they start
   Sky sky;                    // without its image
   Ambient ambient;
 };

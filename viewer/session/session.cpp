@@ -16,7 +16,8 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureLimit = 64;
-constexpr double kPixelsPerNotch = 20;  // of a drag with the right button
+// A drag of this length with the right button counts as a notch of the wheel.
+constexpr double kPixelsPerNotch = 20;
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error

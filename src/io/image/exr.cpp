@@ -414,8 +414,8 @@ std::vector<half> inHalf(const Image& image) {
   return values;
 }
 
-// Where there is no room for the library's threads, it does without. A single thread is the
-// caller's: a forked child does not have the library's threads, and would wait for them.
+// Starts the library's threads; if there is no room for them, it does without. A single thread is
+// the caller's: a forked child does not have the library's threads, and would wait for them.
 void letCompress(int threads) {
   try {
     if (threads > 1 && threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
@@ -441,7 +441,7 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   }
   for (const auto& [name, text] : metadata)
     header.insert(kPrefix + name, Imf::StringAttribute(text));
-  Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709
+  Imf::addChromaticities(header, Imf::Chromaticities());  // those of Rec. 709
   addCamera(metadata, image, header);
   return header;
 }

@@ -132,7 +132,7 @@ class PngReader {
 
 RawImage decode(const std::string& path, FileBytes file, const ImageLimits& limits,
                 ImageMetadata* texts) {
-  constexpr std::uint64_t kMostFromOneByte = 1032;  // of deflate
+  constexpr std::uint64_t kMostFromOneByte = 1032;  // highest ratio of deflate
   PngReader reader(path, file);
   reader.readHeader();
   checkImageSize(path, reader.width(), reader.height(), 1, limits);
