@@ -58,7 +58,9 @@ def _shipped_scenes() -> str:
 class Picture:
     """A rendered picture, or a crop of one. Its arrays are C-contiguous, except `srgb`; torch and
     others take them by DLPack or the buffer protocol without a copy. They are views of the
-    picture's memory: what is written to them gets into its files.
+    picture's memory, and what is written to them gets into files: `rgb` and `channels` into .exr
+    files, a channel also into files of its own, and `rgba` into .png and .jpg files and png().
+    Changes of `rgb` do not reach `rgba`, nor the other way round.
 
     Pickles keep all of a picture, for the same version of whit.
     """
@@ -96,7 +98,8 @@ class Picture:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A channel, "position" (height, width, 3), or one component by its name in files,
-        "depth.Z" (height, width), which is a copy."""
+        "depth.Z" (height, width), which is a copy where the channel has several: what is written to
+        it is in no file."""
         channel, _, component = name.partition(".")
         kept = self._object.channels
         if channel not in kept:
