@@ -283,7 +283,9 @@ class Scene:
             self._object = _whit.load(*self._source, self._load, _shipped_scenes(), progress)
 
     def __getstate__(self) -> dict[str, Any]:
-        state = {**self.__dict__, "_load": {**self._load, "settings": self._object.settings}}
+        # copy.copy() would share a dict that is changed later.
+        state = {**self.__dict__, "_load": {**self._load, "settings": self._object.settings},
+                 "_transforms": dict(self._transforms)}
         del state["_object"]
         return state
 
