@@ -373,7 +373,8 @@ class Scene:
     def set_transform(self, pointer: str, matrix: Any) -> None:
         """Sets the transform of one of `movable`, which replaces its own motion.
 
-        matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units.
+        matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units. It is
+            applied after the own `transform` of a scene's item, and replaces that of a glTF node.
         """
         rows = _arrays.matrix(matrix, "matrix")
         self._object.set_transform(pointer, rows)
