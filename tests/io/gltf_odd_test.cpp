@@ -115,6 +115,12 @@ TEST_F(GltfOdd, TheFirstVersionIsRefused) {
             "3 m.glb: byte 4: expected glTF 2, found 1");
 }
 
+TEST_F(GltfOdd, LaterVersionsThatReadersOfThisOneUnderstandAreRead) {
+  for (const char* least : {"2.0", "1.0"}) {
+    loadText(std::string(R"({"asset":{"version":"2.1","minVersion":")") + least + "\"}}");
+  }
+}
+
 // Two parts of one strip are joined by repeated corners, whose triangles have no area.
 TEST_F(GltfOdd, StripsAreJoinedByTrianglesThatAreNoLoss) {
   GltfBuilder b;

@@ -219,8 +219,10 @@ std::optional<Bytes> GltfDocument::decoded(const JsonValue& value) const {
 }
 
 void GltfDocument::checkExtensions() const {
-  const JsonValue version = root().need("asset").need("version");
+  const JsonValue asset = root().need("asset"), version = asset.need("version");
   if (!version.textOr("").starts_with("2.")) version.fail("2.0");
+  const JsonValue least = asset["minVersion"];
+  if (least.textOr("2.0") > "2.0") least.fail("at most 2.0, which is the version that can be read");
 
   for (const JsonValue& required : list("extensionsRequired").elements()) {
     const std::string extension = required.textOr("");
