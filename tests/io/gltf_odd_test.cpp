@@ -61,9 +61,11 @@ TEST_F(GltfOdd, DataMayBeOfAnyTypeAndSpelling) {
   const std::string whole = b.json(oneMesh(triangle(b)));
   const std::string usual = "data:application/octet-stream;base64,";
 
-  for (const char* other : {"data:;base64,", "DATA:model/gltf-buffer;base64,",
+  for (const char* other : {"data:;base64,", "DATA:model/gltf-buffer;base64,", "DATA:;BASE64,",
                             "data:application/octet-stream;charset=x;base64,"}) {
-    EXPECT_EQ(triangleCount(loadText(replaced(whole, usual, other))), 1u) << other;
+    const SceneDescription scene = loadText(replaced(whole, usual, other));
+    ASSERT_EQ(triangleCount(scene), 1u) << other;
+    EXPECT_EQ(cornerOf(scene, 0, 0, 1), Vec3d(1, 0, 0)) << other;
   }
 
   // Bytes may be escaped; these are the letters AAAA.

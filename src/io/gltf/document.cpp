@@ -245,7 +245,9 @@ std::string GltfDocument::decodeUri(const JsonValue& uri) const {
   if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
 
   const std::string data = percentDecoded(std::string_view(text).substr(comma + 1));
-  const bool isBase64 = std::string_view(text).substr(0, comma).ends_with(";base64");
+  constexpr std::string_view kBase64 = ";base64";
+  const std::size_t mark = std::max(comma, kBase64.size()) - kBase64.size();
+  const bool isBase64 = strncasecmp(&text[mark], kBase64.data(), kBase64.size()) == 0;
   return isBase64 ? base64Decoded(data, where) : data;
 }
 
