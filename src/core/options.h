@@ -246,8 +246,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
-              .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
-                      "off",
+              .help = "ambient occlusion, where the scene's ambient light has a radius of it: rays "
+                      "per hit; 0: off",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true},

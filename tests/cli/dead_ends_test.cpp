@@ -141,6 +141,8 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render whitted --depth -1", kUsage, "expected a whole number from 0 to 64, found '-1'"},
     {"render whitted --threads many", kUsage, "expected a whole number from 0 to 1024"},
     {"render whitted --time now", kUsage, "expected a number from -1e+09 to 1e+09"},
+    {R"(render whitted --set /cameras/main={"eye":[0,1,5],"at":[0,1,0],"orthographicHeight":4} --fov 9)",
+     kUsage, "camera 'main' is orthographic and has no field of view; --ortho 0"},
     {"render whitted --fov 0", kUsage, "expected a number from 0.001 to 179.9"},
     {"render whitted --exposure bright", kUsage, "expected auto or a number from -64 to 64"},
     {"render whitted --simd avx512", kUsage, "did you mean 'avx3'?"},
