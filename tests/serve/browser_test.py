@@ -149,6 +149,17 @@ def test_keys_after_controls(browser, server):
     check(browser.run("return document.activeElement === document.body"), "Enter gives all keys to the picture")
 
 
+def test_lost_release(browser, server):
+    """A drag ends where the pointer comes back without a button."""
+    open_page(browser, server)
+    x, y = middle(browser)
+    browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    browser.mouse("mouseMoved", x + 20, y, button="left", buttons=1)
+    browser.mouse("mouseMoved", x + 60, y)
+    check(browser.run("return fingers.size") == 0, "a drag ends without its pointerup")
+    browser.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
+
+
 def test_two_shapes(browser, server):
     """A page whose shape differs from that of the picture shows it undistorted, and clicks hit its pixels."""
     open_page(browser, server)
@@ -249,7 +260,8 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    test_rays(browser, spheres)
+    for test in (test_rays, test_lost_release):
+        test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
     test_lost_server(browser, None)
