@@ -13,6 +13,7 @@ from browser import Browser, Server
 
 whit = os.path.abspath(sys.argv[1])
 chess = os.path.join(os.environ.get("WHIT_SOURCE_DIR", os.getcwd()), "scenes", "chess.glb")
+CTRL = 2  # the DevTools protocol's modifier
 keep = sys.argv[2] if len(sys.argv) > 2 else None
 wrong = []
 
@@ -149,6 +150,24 @@ def test_keys_after_controls(browser, server):
     check(browser.run("return document.activeElement === document.body"), "Enter gives all keys to the picture")
 
 
+def test_layouts(browser, server):
+    """On a German keyboard Z and Y change places, and Ü has the place of [."""
+    open_page(browser, server)
+    exposure = browser.run("return whit.settled.options.exposure")
+    changed = f"whit.settled.options.exposure !== '{exposure}'"
+    browser.key("BracketLeft", "ü")
+    browser.wait(changed)
+    browser.key("KeyZ", "y", modifiers=CTRL)
+    browser.key("KeyV", "v")  # is told after the other key
+    browser.wait("whit.settled.view === 'depth'")
+    check(browser.run(f"return {changed}"), "Ctrl+Y is not taken for Ctrl+Z")
+    browser.key("KeyY", "z", modifiers=CTRL)
+    browser.wait(f"!({changed})")
+    check(True, "Ctrl+Z undoes")
+    browser.run("say('view none')")
+    browser.wait("whit.settled.view === 'none'")
+
+
 def test_lost_release(browser, server):
     """A drag ends where the pointer comes back without a button."""
     open_page(browser, server)
@@ -260,7 +279,7 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    for test in (test_rays, test_lost_release):
+    for test in (test_rays, test_layouts, test_lost_release):
         test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
