@@ -168,6 +168,18 @@ def test_layouts(browser, server):
     browser.wait("whit.settled.view === 'none'")
 
 
+def test_focus_of_effects(browser, server):
+    """The box that Space has switched keeps the focus, so that Tab goes on from there."""
+    open_page(browser, server)
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; });"
+                "document.querySelector('#effects input:enabled:checked').focus()")
+    name = browser.run("return document.activeElement.name")
+    browser.key("Space", " ", text=" ")
+    browser.wait(f"whit.settled.effects.some(([name, called, on]) => name === '{name}' && !on) && whit.exact")
+    check(browser.run("return document.activeElement.name") == name, "a box keeps the focus after Space")
+    browser.run("say('undo')")
+
+
 def test_lost_release(browser, server):
     """A drag ends where the pointer comes back without a button."""
     open_page(browser, server)
@@ -279,7 +291,7 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    for test in (test_rays, test_layouts, test_lost_release):
+    for test in (test_rays, test_layouts, test_focus_of_effects, test_lost_release):
         test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
