@@ -191,6 +191,25 @@ def test_lost_release(browser, server):
     browser.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
 
 
+def test_no_scene(browser, _):
+    """While scenes are to be chosen from, keys go to their list and not to what it covers."""
+    server = Server(whit, "--quiet")
+    try:
+        browser.open(server.url)
+        browser.wait("typeof whit === 'object' && tables && tables.scenes")
+        browser.key("KeyV", "v")
+        browser.key("Escape", "Escape")
+        browser.call("Input.dispatchKeyEvent", type="keyDown", code="Tab", key="Tab", windowsVirtualKeyCode=9)
+        check(browser.wait("document.activeElement.closest('#scenes')"), "Tab goes to the list of scenes")
+        browser.run("say('scene whitted')")
+        browser.wait("tables.scene === 'whitted' && whit.exact", 120)
+        check(browser.run("return whit.settled.view") == "none", "a key has not changed what is not shown yet")
+        check(browser.run("return getComputedStyle(document.querySelector('aside')).display") != "none",
+              "nor has Esc closed the panel")
+    finally:
+        server.stop()
+
+
 def test_two_shapes(browser, server):
     """A page whose shape differs from that of the picture shows it undistorted, and clicks hit its pixels."""
     open_page(browser, server)
@@ -291,7 +310,7 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    for test in (test_rays, test_layouts, test_focus_of_effects, test_lost_release):
+    for test in (test_rays, test_layouts, test_focus_of_effects, test_lost_release, test_no_scene):
         test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
