@@ -46,7 +46,7 @@ struct ImpulseLanes {
   MF live;        // have an impulse of the kind in question
   MF dielectric;  // bound a medium
   MF hidden;      // bound a medium, where one of a higher priority is already
-  MF covers;      // have a glossy lobe, which takes light from what lies below it
+  MF dimsBelow;   // have a glossy lobe, which takes light from what lies below it
   MF scatters;    // have a glossy lobe that rays sample
   MF mirrors;     // have a glossy lobe that a mirrored ray replaces as far as it is smooth
   MF coated;      // have a mirror that is a coat
@@ -60,8 +60,9 @@ struct ImpulseLanes {
 };
 
 // The least sine over the surface that a child keeps, if `elevation` is what it would have without
-// bent normals.
-HWY_INLINE VF LeastElevation(const ImpulseJob& job, VF elevation) {
+// bent normals. The scalar reference is smallestElevation(); src/reference/add_impulses.h gives the
+// reasons.
+HWY_INLINE VF SmallestElevation(const ImpulseJob& job, VF elevation) {
   if (!job.shading.bend) return Set(-std::numeric_limits<float>::infinity());
   return Min(Mul(Set(0.9f), elevation), Set(0.01f));
 }
@@ -77,8 +78,8 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   ImpulseLanes lanes;
   lanes.material = Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = RebindMask(d, NonNegative(lanes.material));
-  lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
-      lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(Zero());
+  lanes.dielectric = lanes.hidden = lanes.dimsBelow = lanes.scatters = lanes.mirrors =
+      lanes.coated = lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(Zero());
   if (AllFalse(lanes.live)) return lanes;
 
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
@@ -88,7 +89,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   // The flags say which layers the material has.
   lanes.coated = HasFlags(flags, kMaterialCoated);
   if (job.lobes) {
-    lanes.covers = And(lanes.live, HasFlags(flags, kMaterialCovers));
+    lanes.dimsBelow = And(lanes.live, HasFlags(flags, kMaterialDimsBelow));
     lanes.scatters = And(lanes.live, HasFlags(flags, kMaterialScatters));
     lanes.mirrors = And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
     if (job.chunk.depth > 0) {
@@ -139,7 +140,8 @@ HWY_INLINE V3 TransmissionAt(const ImpulseJob& job, const MaterialLanes& materia
   return Mul3(color, Load3(s.transmission, i));
 }
 
-// The color, reduced to what is left of the light where the share `taken` of it is not.
+// Scales the color down where color + taken would exceed 1. The scalar reference, which explains
+// it, is limited() in src/reference/add_impulses.cpp.
 HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
   const VF one = Set(1.0f), zero = Zero(), largest = MaxComponent(color);
   const MF enough = Ge(Sub(one, MaxComponent(taken)), largest);
@@ -158,9 +160,9 @@ HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
 // The scalar reference is underMirror in src/reference/add_impulses.cpp.
 HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& mirror,
                           const V3& others) {
-  const V3 limited = Limited(color, Add3(mirror, others));
-  if (HWY_LIKELY(AllFalse(lanes.coated))) return limited;
-  return Select3(lanes.coated, Mul3(color, Complement3(mirror)), limited);
+  const V3 taken = Add3(mirror, others);
+  if (HWY_LIKELY(AllFalse(lanes.coated))) return Limited(color, taken);
+  return Limited(Select3(lanes.coated, Mul3(color, Complement3(mirror)), color), taken);
 }
 
 // Returns the share of the light below their mirrors that the lobes of the surfels at i take, and 0
@@ -168,7 +170,7 @@ HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& 
 HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   if (!job.lobes) return Zero3();
   const SurfelColumns& s = job.surfels;
-  return Select3(lanes.covers, Load3(s.lobe, i), Zero3());
+  return Select3(lanes.dimsBelow, Load3(s.lobe, i), Zero3());
 }
 
 // The coverage of the surfels at i.
@@ -238,7 +240,7 @@ HWY_INLINE VU ChildStreamsAt(const ImpulseJob& job, size_t i, uint32_t branch) {
   return ChildStream(Load(job.rays.path, i), branch);
 }
 
-// The children's cones begin as wide as their parents' end.
+// The cone of a child starts as wide as its parent's ends.
 HWY_INLINE VF ConesAt(const ImpulseJob& job, size_t i) {
   if (!job.cones) return Zero();
   return Load(job.surfels.cone, i);
@@ -253,7 +255,8 @@ HWY_INLINE V3 Raised(const V3& r, const V3& ng, VF elevation, MF live) {
   return Select3(low, NormalizeOr(MulAdd3(ng, Sub(elevation, height), r), ng), r);
 }
 
-// `side`: RayOrigin's.
+// Returns the origin of a child. `side` is 1 for the viewer's side of the surface, and -1 for the
+// other one.
 HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i, float side) {
   const SurfelColumns& surfels = job.surfels;
   const V3 position = Load3(surfels.pos, i);
@@ -281,7 +284,7 @@ void AddReflections(Chunk& c) {
       weight = MulAdd3(weight, Sub(Set(1.0f), f), {f, f, f});
     }
 
-    // A smooth lobe is stood for by the mirrored ray, as far as it is smooth.
+    // The mirrored ray replaces the glossy lobe, by a share that grows as the lobe gets smoother.
     if (!AllFalse(lanes.mirrors)) {
       const VF roughness = Sqrt(Load(job.surfels.alpha, i));
       const VF share = IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
@@ -292,7 +295,7 @@ void AddReflections(Chunk& c) {
     // d - 2 (d.n) n
     const VF twice = Mul(Set(-2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
-    const V3 r = Raised(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
+    const V3 r = Raised(mirrored, lanes.ng, SmallestElevation(job, lanes.facing), lanes.live);
 
     const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
@@ -447,15 +450,15 @@ HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, siz
   const VF zero = Zero();
   const SurfelColumns& s = job.surfels;
   V3 weight = Zero3();
-  if (AllFalse(lanes.covers)) return weight;
+  if (AllFalse(lanes.dimsBelow)) return weight;
 
   // The albedo of lobes that no rays sample is looked up.
-  if (!AllTrue(Or(lanes.scatters, hn::Not(lanes.covers)))) {
+  if (!AllTrue(Or(lanes.scatters, hn::Not(lanes.dimsBelow)))) {
     const V3 f0 = Load3(s.specular, i);
     const VF roughness = Sqrt(Load(s.alpha, i));
     const VF f90 = LobeGrazing(job.tables, s, f0, i);
-    weight = LobeAlbedo(*job.tables.lobes, f0, f90, lanes.cosine, roughness, lanes.covers);
-    weight = Select3(lanes.covers, weight, Zero3());
+    weight = LobeAlbedo(*job.tables.lobes, f0, f90, lanes.cosine, roughness, lanes.dimsBelow);
+    weight = Select3(lanes.dimsBelow, weight, Zero3());
   }
   if (AllFalse(lanes.scatters)) return weight;
 
@@ -479,7 +482,7 @@ void FindLayers(Chunk& c) {
   for (size_t i = 0; i < job.n; i += Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kMaterialLayered>(job, i);
     lanes.live = AndNot(lanes.hidden, lanes.live);
-    lanes.covers = And(lanes.covers, lanes.live);
+    lanes.dimsBelow = And(lanes.dimsBelow, lanes.live);
     if (AllFalse(lanes.live)) continue;
 
     // `below` is the share of the light that reaches the diffuse layer.
@@ -567,16 +570,16 @@ HWY_INLINE void AddSamples(Chunk& c) {
     lanes.live = kPasses ? Frosts(job, lanes, i) : AndNot(lanes.hidden, lanes.live);
     if (AllFalse(lanes.live)) continue;
 
-    V3 covered = LeftForSamples<Samples>(job, lanes, i);
+    V3 left = LeftForSamples<Samples>(job, lanes, i);
     if (HWY_UNLIKELY(!kPasses && !AllFalse(lanes.chooses))) {
       const VF factor = FactorOfChoice(job, lanes, kLobe.flag == kMaterialScatters, i);
       lanes.live = And(lanes.live, Gt(factor, Zero()));
       if (AllFalse(lanes.live)) continue;
-      covered = Scale3(covered, factor);
+      left = Scale3(left, factor);
     }
 
-    if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
-    if (occluded) covered = Scale3(covered, Load(job.surfels.occlusion, i));
+    if (job.coverage) left = Scale3(left, CoverageAt(job, i));
+    if (occluded) left = Scale3(left, Load(job.surfels.occlusion, i));
 
     const Samples samples(job, lanes, i);
     const VF counts = IfThenElse(samples.several, share, one);
@@ -592,9 +595,9 @@ HWY_INLINE void AddSamples(Chunk& c) {
       if (AllFalse(sampled)) break;
 
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
-      sample.weight = Mul3(sample.weight, covered);
+      sample.weight = Mul3(sample.weight, left);
       const MF live = And(sampled, Gt(sample.cosine, Zero()));
-      V3 r = Raised(sample.direction, outward, LeastElevation(job, sample.cosine), live);
+      V3 r = Raised(sample.direction, outward, SmallestElevation(job, sample.cosine), live);
       if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
 
       const Child child{origin,
@@ -631,7 +634,7 @@ void AddRefractions(Chunk& c) {
 
     // The mirror and the lobe lie above what passes.
     V3 transmittance = UnderMirror(lanes, TransmissionAt(job, material, i), mirror, Zero3());
-    if (!AllFalse(lanes.covers)) {
+    if (!AllFalse(lanes.dimsBelow)) {
       const VF inverse = Div(one, Max(through, Set(1e-30f)));
       const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
       transmittance = Mul3(transmittance, Complement3(albedo));
@@ -655,7 +658,7 @@ void AddRefractions(Chunk& c) {
     // change nothing.
     const VF g2 = MulThenAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = Div(Sqrt(Max(g2, Zero())), interface.eta);
-    const VF elevation = LeastElevation(job, IfThenElse(Gt(g2, Zero()), leaving, one));
+    const VF elevation = SmallestElevation(job, IfThenElse(Gt(g2, Zero()), leaving, one));
     const MF high = Gt(height, Neg(elevation));
 
     const V3 pressed =

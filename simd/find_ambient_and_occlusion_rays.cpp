@@ -1,4 +1,5 @@
-// Ambient light at the surfels, as if nothing held it off, and rays that find out.
+// Ambient light at the surfels as if nothing occluded it, and the occlusion rays that test whether
+// something does.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -11,7 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// Fetches records of so many floats for all hits of a run, before the first of them is needed.
+// Prefetches the records, of `stride` floats each, of all hits of a block before the first of them
+// is read.
 template <class Record>
 HWY_INLINE void PrefetchRecords(const Record* table, size_t stride, const uint32_t* hit,
                                 size_t begin, size_t end) {
@@ -149,7 +150,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     Store(lobe.alpha, surfels.alpha, i);
   }
 
-  // FindLayers sets it where there is one.
+  // FindLayers overwrites the share of layered materials.
   if (job.lobes) {
     Store3(Zero3(), surfels.lobe, i);
   }
@@ -192,7 +193,7 @@ void InterpolateSurfels(Chunk& c) {
     }
     for (size_t i = begin; i < end; i += lanes) {
       flags = Or(flags, InterpolateVector(job, i, i - begin, block));
-      if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs(job, i, i - begin, block);
+      if (HWY_UNLIKELY(job.secondUvs)) QueueBySecondUvs(job, i, i - begin, block);
     }
     if (job.textures || job.normalMaps) {
       for (size_t i = begin; i < end; i += lanes) ApplyTextures(job, block, i - begin, i);
@@ -218,7 +219,8 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   if (AllFalse(mapped)) return;
 
   Surface s;
-  const MapHits at = MapHitsAt(job, valid, triangle, t, false, i, s);
+  const bool smooth = false;  // the lookup needs no interpolated normal
+  const MapHits at = MapHitsAt(job, valid, triangle, t, smooth, i, s);
   const bool second = kBySecond != 0 && job.secondUvs;
   const UvLanes uv = second ? UvsOfMap(job.tables, at, kBySecond) : t.uv;
   QueueMap(job, map, mapped, PointsAt(job, at, uv), slot, queue);
@@ -273,7 +275,7 @@ inline HWY_NOINLINE VF MulVertexAlpha(const SurfelJob& job, VF coverage, MF mapp
   return IfThenElse(byVertex, Mul(coverage, alpha), coverage);
 }
 
-// 1 where a ray has left the scene.
+// Stores the coverage of the surfels at i. It is 1 where the ray left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
   const FloatTag d;
   const VI number = MaterialNumbers(job.surfels, i);
@@ -395,7 +397,7 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on
   }
 }
 
-// Stretched ones to unit length; those that have it keep their bits.
+// Normalizes normals that a transform has stretched; unit vectors keep their bits.
 HWY_INLINE Corners UnitNormals(Corners normals) {
   const VF one = Set(1.0f), most = Set(static_cast<float>(kStretchedNormal));
   for (V3* n : {&normals.c0, &normals.c1, &normals.c2}) {

@@ -215,7 +215,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
         const V3 direction = DirectionAt(rays, i);
         const V3 v = Neg3(direction);
         const V3 h = NormalizeOr(Add3(l, v), ns);
-        const VF nv = Max(Dot(ns, v), Set(1e-4f));
+        const VF nv = Max(Dot(ns, v), Set(static_cast<float>(kLeastCosine)));
         const VF alpha = Load(surfels.alpha, i);
         const VF f90 = LobeGrazing(c.tables(), surfels, f0, i);
         V3 lobe = GlossyLobe(f0, f90, alpha, nl, nv, ns, h, Dot(v, h));

@@ -63,7 +63,7 @@ class Lens {
 class Projector {
  public:
   explicit Projector(const CameraFrame& camera) : camera_(camera) {
-    for (size_t i = 0; i < 8; ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
+    for (size_t i = 0; i < 8; ++i) distortion_[i] = static_cast<float>(camera.distortion[i]);
   }
 
   // Returns the directions along right, up and forward through the points x, y pixels right of and
@@ -90,7 +90,10 @@ class Projector {
   }
 
  private:
-  HWY_INLINE VF Lens(size_t i, float factor = 1) const { return Set(factor * lens_[i]); }
+  // Returns a coefficient of the distortion, times the factor.
+  HWY_INLINE VF Coefficient(size_t i, float factor = 1) const {
+    return Set(factor * distortion_[i]);
+  }
 
   HWY_INLINE V3 Undistorted(VF u, VF v, MF& seen) const {
     const VF one = Set(1.0f), two = Set(2.0f), zero = Zero();
@@ -104,13 +107,16 @@ class Projector {
       // The radial part of OpenCV's model scales by a quotient of polynomials in r^2.
       const auto polynomial = [&](VF c0, VF c1, VF c2)
                                   HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
-      const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
-      const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
+      const VF above =
+          MulThenAdd(polynomial(Coefficient(0), Coefficient(1), Coefficient(4)), r2, one);
+      const VF below =
+          MulThenAdd(polynomial(Coefficient(5), Coefficient(6), Coefficient(7)), r2, one);
       const VF scale = Div(above, below);
 
       // The scale changes by `slope` * r with r, and the distorted radius by `radial`.
-      const VF change = NegMulThenAdd(scale, polynomial(Lens(5), Lens(6, 2), Lens(7, 3)),
-                                      polynomial(Lens(0), Lens(1, 2), Lens(4, 3)));
+      const VF change =
+          NegMulThenAdd(scale, polynomial(Coefficient(5), Coefficient(6, 2), Coefficient(7, 3)),
+                        polynomial(Coefficient(0), Coefficient(1, 2), Coefficient(4, 3)));
       const VF slope = Mul(two, Div(change, below));
       const VF radial = MulThenAdd(slope, r2, scale);
 
@@ -119,13 +125,14 @@ class Projector {
         const VF tangential = MulThenAdd(p, twoXY, Mul(q, MulThenAdd(two, at2, r2)));
         return Add(MulThenSub(at, scale, wanted), tangential);
       };
-      const VF offX = off(x, x2, Lens(2), Lens(3), u), offY = off(y, y2, Lens(3), Lens(2), v);
+      const VF offX = off(x, x2, Coefficient(2), Coefficient(3), u),
+               offY = off(y, y2, Coefficient(3), Coefficient(2), v);
 
       // The result counts if it is precise and does not lie beyond a fold of the picture.
       if (step == kLensSteps) {
         const VF error = Max(Abs(offX), Abs(offY));
         const VF least = Min(Min(scale, below), radial);
-        seen = And(Lt(error, Lens(8)), Gt(least, zero));
+        seen = And(Lt(error, Set(static_cast<float>(kLensError))), Gt(least, zero));
         return {x, Neg(y), one};
       }
 
@@ -155,11 +162,14 @@ class Projector {
         return MulThenAdd(MulThenAdd(inner, a2, c1), a2, Set(1.0f));
       };
 
-      const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
-      const VF slope = polynomial(Lens(0, 3), Lens(1, 5), Lens(2, 7), Lens(3, 9));
+      const VF off = MulThenSub(
+          angle, polynomial(Coefficient(0), Coefficient(1), Coefficient(2), Coefficient(3)),
+          radius);
+      const VF slope =
+          polynomial(Coefficient(0, 3), Coefficient(1, 5), Coefficient(2, 7), Coefficient(3, 9));
 
       if (step == kLensSteps) {
-        seen = And(Lt(Abs(off), Lens(8)), Gt(slope, Zero()));
+        seen = And(Lt(Abs(off), Set(static_cast<float>(kLensError))), Gt(slope, Zero()));
         return angle;
       }
 
@@ -211,7 +221,7 @@ class Projector {
   }
 
   const CameraFrame& camera_;
-  std::array<float, 9> lens_{0, 0, 0, 0, 0, 0, 0, 0, static_cast<float>(kLensError)};
+  std::array<float, 8> distortion_{};
 };
 
 // Returns the start and the axes of each view of the frame, twelve numbers each.

@@ -141,8 +141,8 @@ WHIT_KERNEL(AddIndirect, "addIndirect", addImpulses, {Part::rays, Part::surfels}
 WHIT_KERNEL(ReturnImpulses, "returnImpulses", addImpulses,
             {Part::rays, Part::radiance, Part::parentRadiance}, {Part::parentRadiance});
 
-// The last of it, where media absorb: what the queue of depth 0 has gathered, times the weight that
-// its rays have left between the eye and the first surface.
+// Multiplies the radiance of the queue of depth 0 by the weight that its rays have kept on the way
+// from the eye to the first surface. Only plans with absorption or fog need it.
 WHIT_KERNEL(ReturnToEye, "returnToEye", addImpulses, {Part::rays, Part::radiance},
             {Part::radiance});
 
@@ -227,12 +227,13 @@ struct EncodeArgs {
 };
 void encodeDisplay(const EncodeArgs& args) noexcept;
 
-// Names as in --simd, best first, of the compiled targets that this machine has.
-// chooseTarget("auto") takes the best; false: this machine or build lacks it. Functions that were
-// found before stay those of the target before. Other threads may choose the same target and call
-// kernels of it meanwhile, and no other.
+// Returns the compiled targets that this machine has, best first, by their names for --simd.
 std::vector<std::string> availableTargets();
+// Chooses a target; "auto" is the best. Returns false if this machine or build lacks it. Kernels
+// that were found earlier keep their target. While other threads call kernels, only the target that
+// they use may be chosen.
 bool chooseTarget(const std::string& name);
+// Returns the name of the target that was chosen last.
 std::string chosenTarget();
 
 }  // namespace whit::simd

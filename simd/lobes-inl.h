@@ -94,7 +94,8 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const Surfel
   const VF towards = Dot(ns, lobes.view);
   const V3 along = MulAdd3(ns, Neg(towards), lobes.view);
   const VF sine = Sqrt(Dot(along, along));
-  // Near the normal, the plane of incidence is lost in rounding: any other.
+  // If the view is close to the normal, rounding loses the plane of incidence, and any other plane
+  // serves.
   const MF oblique = Gt(sine, Set(0.01f));
   const V3 across = UnitAcross(ns, 0.5f);
   const VF scale = Div(one, IfThenElse(oblique, sine, one));
@@ -105,7 +106,7 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const Surfel
   const VF alpha = Load(surfels.alpha, i);
   lobes.rough = AndNot(flat, Gt(alpha, Set(kSmoothAlpha)));
   lobes.alpha = IfThenElseZero(lobes.rough, alpha);
-  lobes.nv = Max(towards, Set(1e-4f));
+  lobes.nv = Max(towards, Set(static_cast<float>(kLeastCosine)));
   const V3 seen = Normalize3({Mul(sine, lobes.alpha), zero, lobes.nv});
   lobes.seenX = seen.x;
   lobes.seenZ = seen.z;
@@ -176,7 +177,7 @@ HWY_INLINE V3 LobeAlbedo(const LobeTable& table, const V3& f0, VF f90, VF cosine
   const VF top = Min(Floor(row), most), left = Min(Floor(column), most);
   const VF down = Sub(row, top), right = Sub(column, left);
   const VF first = IfThenElseZero(live, MulThenAdd(top, Set(float{kLobeSteps}), left));
-  // Three more texels are looked up behind it.
+  // Its three neighbors, to the right and below, are read as well.
   const VI at = Clamped(ConvertTo(di, first), kLobeSteps * (kLobeSteps - 1) - 1);
   const auto lookUp = [&](const float* plane) HWY_ATTR {
     const auto inRow = [&](const float* from) HWY_ATTR {
@@ -198,7 +199,7 @@ HWY_INLINE VF MirroredShare(VF roughness) {
   return Clamped01(share);
 }
 
-// About a vector of unit normals.
+// Directions drawn by their cosine to a unit normal, one normal for each lane.
 class CosineLobes {
  public:
   HWY_INLINE explicit CosineLobes(const V3& normal) : z_(normal) {

@@ -238,7 +238,8 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
       records.Load4<offsetof(MediumRecord, ior), offsetof(MediumRecord, absorption[2])>();
   const VF t = Load(hits.t, i);
   const auto transmittance = [&](VF sigma) HWY_ATTR {
-    // 88 is past where exp underflows to zero; the limit keeps infinity out of the polynomial.
+    // Beyond a depth of 87 the share is no normal float any more and counts as 0. The bound of 104
+    // keeps infinity out of Highway's polynomial.
     const VF depth = Min(Mul(sigma, t), Set(104.0f));
     const VF hit = IfThenElseZero(Lt(depth, Set(87.0f)), hn::Exp(d, Neg(depth)));
     const VF through = IfThenElseZero(valid, hit);

@@ -314,8 +314,8 @@ HWY_INLINE TexturePoints PointsAt(const SurfelJob& job, const MapHits& hits, con
   return at;
 }
 
-inline HWY_NOINLINE void QueueEmissionByOwnUvs(const SurfelJob& job, const MapHits& hits, VI map,
-                                               size_t slot, BlockTextures& block) {
+inline HWY_NOINLINE void QueueEmissionBySecondUvs(const SurfelJob& job, const MapHits& hits, VI map,
+                                                  size_t slot, BlockTextures& block) {
   const UvLanes uv = UvsOfMap(job.tables, hits, kMaterialEmissionBySecondUvs);
   QueueMap(job, map, hits.live, PointsAt(job, hits, uv), slot, block.emission);
 }
@@ -326,9 +326,9 @@ struct NormalSpace {
   VF handedness, flip;
 };
 
-inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits& hits, VI map,
-                                             const NormalSpace& space, size_t slot,
-                                             BlockTextures& block) {
+inline HWY_NOINLINE void QueueNormalBySecondUvs(const SurfelJob& job, const MapHits& hits, VI map,
+                                                const NormalSpace& space, size_t slot,
+                                                BlockTextures& block) {
   const UvLanes uv = UvsOfMap(job.tables, hits, kMaterialNormalBySecondUvs);
   const TangentFrame frame =
       FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);
@@ -340,8 +340,8 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
 // Queues maps again that the material looks up by the second texture coordinates, in scenes that
 // have them. The function is not inlined and starts from the hits, so that other frames do not pay
 // for it.
-inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot,
-                                       BlockTextures& block) {
+inline HWY_NOINLINE void QueueBySecondUvs(const SurfelJob& job, size_t i, size_t slot,
+                                          BlockTextures& block) {
   const ShadingTables& tables = job.tables;
   const auto [valid, triangle] = LoadHits(job.hits, tables.triangleCount, i);
   if (AllFalse(valid)) return;
@@ -355,12 +355,13 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
     const VI normalMap = material.NormalMap();
     if (!AllFalse(MappedLanes(normalMap, valid))) {
       const VF flip = TurnToViewer(Lt(map.cosine, Zero()));
-      QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
+      QueueNormalBySecondUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot,
+                             block);
     }
   }
 
   if (job.textures && job.emissionFactors) {
-    QueueEmissionByOwnUvs(job, map, material.Lobe().emissionMap, slot, block);
+    QueueEmissionBySecondUvs(job, map, material.Lobe().emissionMap, slot, block);
   }
 }
 

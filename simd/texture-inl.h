@@ -21,8 +21,8 @@ struct AxisTexels {
 };
 
 // `held` in texture coordinates from 0 to 1, `size` in texels: footprints 0 to `size`, also where
-// rounding takes s - floor(s) to exactly 1 (hard case H69). What lies beyond the borders is in the
-// strips (TextureRecord).
+// rounding takes s - floor(s) to exactly 1 (hard case H69). Texels beyond the borders are
+// stored in the strips (kTexelStrip in scene/texture.h).
 HWY_INLINE AxisTexels FootprintAt(VF held, VF size) {
   const VF x = MulThenSub(held, size, Set(0.5f));
   const VF floored = Floor(x);

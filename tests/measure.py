@@ -460,7 +460,7 @@ def write_speed():
     if files["effects-kernels"]:
         ratio = files["effects-kernels"]["all_over_auto"][0]
         tables["effects-kernels"] = (
-            f"With every effect compiled in, a frame of matte takes {ratio['frame']:.2f} times as "
+            f"With the steps of every effect, a frame of matte takes {ratio['frame']:.2f} times as "
             f"long, its part outside Embree {ratio['outside_embree']:.2f} times.")
     effects = OUT / "effects/effects.csv"
     if effects.exists():

@@ -169,8 +169,8 @@ mutations() {
     '++entered[surface.medium];' ''
   plant eye-beside-the-surface src/surfaces/initial_media.cpp \
     '|| liesOnDielectric(scene, effects, intersector, frame.eye);' ';'
-  plant glass-before-opaque src/surfaces/choose_surface.cpp \
-    'return a.opaque;' 'return b.opaque;'
+  plant glass-before-opaque src/bake/facet.h \
+    'std::tuple(opaque, medium' 'std::tuple(!opaque, medium'
   plant not-robust src/accel/embree_scene.cpp 'options.robust ? RTC_SCENE_FLAG_ROBUST' \
     'false ? RTC_SCENE_FLAG_ROBUST'
   plant sphere-in-floats simd/meet_sphere.cpp \

@@ -7,12 +7,14 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "viewer/overlay.h"
+#include "viewer/ray_panel.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr double kIdleSeconds = 0.25;     // longest wait for events, then the file is looked at
+constexpr double kIdleSeconds = 0.25;     // longest wait for events, between looks at the file
 constexpr double kLongestSeconds = 0.1;   // longest step: a stall does not make the camera leap
 constexpr double kUndrawnSeconds = 0.05;  // longest time without drawing while a picture is due
 // ImGui answers to an event within four frames: the first shows it, the second what it opened or
@@ -55,7 +57,7 @@ ImageSize App::sizeFor(const Scene& scene) const {
 void App::run() {
   while (step()) {
     if (!window_.closing()) continue;
-    if (mayLoseEdits("Esc once more quits")) return;
+    if (mayLoseEdits("press Esc again")) return;
     window_.setClosing(false);
   }
 }
@@ -175,7 +177,8 @@ void App::draw() {
   for (const std::string& line : said) act(line);
 }
 
-// Fills the bottom of the window upwards; returns the top of that.
+// Draws the time bar, errors, messages and the status, from the bottom of the window upwards.
+// Returns the top of what it drew.
 float App::drawBottom(std::vector<std::string>& said) const {
   const ViewState& state = session_.state();
   auto bottom = static_cast<float>(window_.size().height);
@@ -186,8 +189,9 @@ float App::drawBottom(std::vector<std::string>& said) const {
     bottom = drawMessage(text, bottom);
   }
 
-  const bool says = shown_.over == Over::panel || state.shown.debug;
-  return shown_.words && session_.showsScene() && says ? drawStatus(state, bottom) : bottom;
+  const bool showsStatus = shown_.over == Over::panel || state.shown.debug;
+  if (!shown_.words || !session_.showsScene() || !showsStatus) return bottom;
+  return drawStatus(state, bottom);
 }
 
 void App::drawOver(float bottom, std::vector<std::string>& said) {

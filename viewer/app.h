@@ -20,7 +20,7 @@ class ScriptedUser {
   virtual bool act(bool sharp, Input& input, WindowState& shown) = 0;
   // Called when a frame was drawn, before it is presented.
   virtual void drawn() = 0;
-  // True: errors are shown as to a person; false: they end the viewer.
+  // Returns true if errors are shown as to a person, and false if they end the viewer.
   virtual bool survivesErrors() const = 0;
 };
 
@@ -32,12 +32,13 @@ class App {
   // Returns when the user quits. Errors are shown and survived; throws them where a scripted user
   // does not survive them.
   void run();
-  bool waitsForReader() const { return session_.waitsForReader(); }  // at its end
+  // True if the destructor would wait for a scene that is being read.
+  bool waitsForReader() const { return session_.waitsForReader(); }
   // Returns the settings as the user left them.
   KeptSettings kept() const;
 
  private:
-  // app.cpp:
+  // The loop from frame to frame, in app.cpp.
   bool step();  // returns false when the scripted user ends
   double waitSeconds() const;
   bool worthDrawing(bool fresh, double seconds);
@@ -53,13 +54,13 @@ class App {
   void drawOver(float bottom, std::vector<std::string>& said);
   void inspectPointed() const;
 
-  // app_keys.cpp:
+  // What keys, mouse and panel do, in app_keys.cpp.
   void handleInput();
   void move(const Input& input);
   void act(const std::string& line);
-  void turn(Over over);
+  void toggle(Over over);
   void close();
-  bool mayLoseEdits(const char* next);
+  bool mayLoseEdits(const char* howToLose);
   void savePicture();
   void copyCommand();
   void click(const Input::Click& place);
@@ -70,16 +71,16 @@ class App {
   ScriptedUser* scripted_;  // null: a person
   WindowState shown_;
   Display display_;
-  ImageSize fitted_;  // of the window, unless the user changes it
+  ImageSize fitted_;  // size of the window until the user changes it
   Window window_;
   Session session_;
   Panel panel_;
-  bool isHeld_ = false;        // some key was in the last frame
-  bool hints_ = false;         // the hint of the start is shown
-  bool savesPicture_ = false;  // as soon as it is complete
-  // The edits of which the user was asked whether they may be lost.
-  std::optional<std::vector<std::string>> askedAbout_;
-  int errors_ = 0;  // that were told
+  bool isHeld_ = false;        // some key was held in the last frame
+  bool hints_ = false;         // the first scene's hint is shown
+  bool savesPicture_ = false;  // the picture is to be saved as soon as it is complete
+  // The unsaved edits that the user was last warned of.
+  std::optional<std::vector<std::string>> warnedOf_;
+  int errors_ = 0;  // number of errors that were reported
   std::string sceneName_;
   double undrawnSeconds_ = 0;
   int drawAgain_ = 0;  // frames to draw without waiting, see kFramesToAnswer

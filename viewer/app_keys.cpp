@@ -13,7 +13,7 @@ namespace whit::view {
 
 namespace {
 
-// Standard output has the commands of pictures as soon as they are asked for.
+// Standard output gets the commands of pictures at once.
 void printLine(const std::string& text) {
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
@@ -39,7 +39,7 @@ void App::handleInput() {
   if (!input.dropped.empty()) act("open " + input.dropped.front());
 }
 
-// Hands on what moves the camera.
+// Passes drags, the wheel and held keys on to the session.
 void App::move(const Input& input) {
   for (const auto& [verb, drag] :
        {std::pair{"left", input.left}, {"middle", input.middle}, {"right", input.right}}) {
@@ -58,17 +58,17 @@ void App::move(const Input& input) {
   }
 }
 
-// Does what a line says. The window's own verbs are those that the table leaves to it. Errors are
-// shown.
+// Carries out a line. The window's own verbs are those that the table of verbs leaves to it. Errors
+// are shown.
 void App::act(const std::string& line) try {
   const std::size_t end = line.find(' ');
   const std::string verb = line.substr(0, end);
   const std::string rest = end == std::string::npos ? "" : line.substr(end + 1);
 
   const std::map<std::string_view, std::function<void()>> own{
-      {"cameras", [&] { turn(Over::cameras); }},
-      {"keys", [&] { turn(Over::keys); }},
-      {"panel", [&] { turn(Over::panel); }},
+      {"cameras", [&] { toggle(Over::cameras); }},
+      {"keys", [&] { toggle(Over::keys); }},
+      {"panel", [&] { toggle(Over::panel); }},
       {"lines", [&] { shown_.lines = !shown_.lines; }},
       {"save-scene", [&] { saveScene(); }},
       {"save-picture", [&] { savePicture(); }},
@@ -76,6 +76,7 @@ void App::act(const std::string& line) try {
       {"open", [&] { open(rest); }},
       {"full-screen", [&] { window_.toggleFullScreen(); }},
       {"close", [&] { close(); }}};
+
   const auto found = own.find(verb);
   if (found == own.end()) {
     session_.act(line);
@@ -87,13 +88,13 @@ void App::act(const std::string& line) try {
 }
 
 // Opens what is not open, and closes what is.
-void App::turn(Over over) { shown_.over = shown_.over == over ? Over::nothing : over; }
+void App::toggle(Over over) { shown_.over = shown_.over == over ? Over::nothing : over; }
 
 void App::close() {
   if (session_.close()) return;
 
   if (std::exchange(savesPicture_, false)) {
-    session_.say("the picture is not saved");
+    session_.say("the picture will not be saved");
   } else if (shown_.over != Over::nothing && !session_.choosesScene()) {
     shown_.over = Over::nothing;
   } else if (session_.state().rays.scene) {
@@ -105,13 +106,15 @@ void App::close() {
   }
 }
 
-// Asks once before edits are lost, and again after further edits; `next` says what to do then.
-bool App::mayLoseEdits(const char* next) {
+// Warns once before edits are lost, and again after further edits. `howToLose` says what the user
+// does to go on without them.
+bool App::mayLoseEdits(const char* howToLose) {
   const std::vector<std::string>& settings = session_.state().edited.settings;
-  if (!session_.hasUnsavedEdits() || settings == askedAbout_) return true;
-  askedAbout_ = settings;
-  session_.say(
-      formatted("there are edits that no file has: Ctrl+S saves them, %s without them", next));
+  if (!session_.hasUnsavedEdits() || settings == warnedOf_) return true;
+
+  warnedOf_ = settings;
+  session_.say(formatted(
+      "the scene has unsaved edits: press Ctrl+S to save them, or %s to lose them", howToLose));
   return false;
 }
 
@@ -121,7 +124,8 @@ void App::savePicture() {
   if (savesPicture_) {
     session_.holdStill();
     session_.say(
-        "the picture is saved as soon as it has full resolution and all samples; Esc: not");
+        "the picture will be saved when it has full resolution and all samples; press Esc to "
+        "cancel");
     return;
   }
 
@@ -140,7 +144,7 @@ void App::copyCommand() {
 
   printLine(command);
   window_.setClipboard(command);
-  session_.say("the command that makes this picture is printed, and in the clipboard");
+  session_.say("the command that makes this picture was printed and copied to the clipboard");
 }
 
 void App::saveScene() {
@@ -148,7 +152,7 @@ void App::saveScene() {
 
   const SavedScene saved = session_.saveScene();
   printLine(saved.command);
-  session_.say("saved the scene as " + saved.file + "; the command that renders it is printed");
+  session_.say("saved the scene as " + saved.file + "; the command that renders it was printed");
 }
 
 void App::click(const Input::Click& place) {
@@ -168,14 +172,14 @@ void App::open(const std::string& file) {
   const std::string extension = extensionOf(file);
   const bool isSky = extension == ".hdr" || extension == ".exr";
   if (!isSky || session_.choosesScene()) {
-    if (mayLoseEdits("once more opens the other scene")) session_.open(file);
+    if (mayLoseEdits("drop the file again")) session_.open(file);
     return;
   }
 
   EditedScene edited = session_.state().edited;
   edited.sky = skyFrom(file);
   std::vector<std::string> settings;
-  stateSky(edited, settings);
+  addSkySetting(edited, settings);
   session_.edit(settings, edited);
   session_.say("sky: " + file);
 }

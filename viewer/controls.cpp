@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/text.h"
+#include "viewer/controls.h"
 #include "viewer/panel.h"
 #include "viewer/session/control.h"
 
@@ -85,10 +86,10 @@ void drawEffects(const ViewState& state, std::vector<std::string>& said) {
 
 }  // namespace
 
-void drawMeasured(const std::vector<KnobCost>& costs) {
+void drawCosts(const std::vector<KnobCost>& costs) {
   if (costs.empty()) return;
 
-  const std::vector<KnobCost> told = toldFromNoise(costs);
+  const std::vector<KnobCost> told = significantCosts(costs);
   for (const KnobCost& cost : told) {
     ImGui::Bullet();
     drawText(cost.name + ": " + costText(cost));

@@ -1,4 +1,4 @@
-#include "viewer/panel.h"
+#include "viewer/overlay.h"
 
 #include <imgui.h>
 
@@ -9,6 +9,8 @@
 #include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "viewer/panel.h"
+#include "viewer/session/verbs.h"
 #include "viewer/window.h"
 
 namespace whit::view {
@@ -84,8 +86,6 @@ std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const Ima
 int indexAt(double share, int pixels) { return static_cast<int>(share * pixels); }
 
 }  // namespace
-
-float margin() { return ImGui::GetStyle().WindowPadding.x; }
 
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel) {

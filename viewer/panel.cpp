@@ -7,12 +7,15 @@
 
 #include "core/text.h"
 #include "output/frame_summary.h"
+#include "viewer/controls.h"
+#include "viewer/ray_panel.h"
+#include "viewer/scene_panel.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr float kWidth = 32, kLeastWidth = 22;  // heights of the font
+constexpr float kWidth = 32, kLeastWidth = 22;  // in heights of the font
 
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
@@ -56,7 +59,7 @@ void drawTime(const ViewState& state, std::vector<std::string>& said) {
   } else if (ImGui::Button("measure what each option costs")) {
     said.emplace_back("measure");
   }
-  drawMeasured(state.costs);
+  drawCosts(state.costs);
 
   const Image& image = frame.film.image;
   drawText(aboutText(frame));
@@ -96,6 +99,8 @@ void drawTabs(std::string& chosen) {
 
 }  // namespace
 
+float margin() { return ImGui::GetStyle().WindowPadding.x; }
+
 // Dear ImGui alone would break lines after periods as well, and so within numbers and file names.
 void drawText(const std::string& text) {
   // All letters have the same width.
@@ -118,7 +123,8 @@ bool Panel::place(float bottom) {
   const float left = left_, top = top_;
   const auto clear = std::exchange(clear_, std::nullopt);
   if (clear && clear->x > left_ - margin() && clear->x < left_ + width_ + margin()) {
-    const bool rightwards = clear->x<window.x / 2, above = clear->y> window.y / 2;
+    const bool rightwards = clear->x < window.x / 2;
+    const bool above = clear->y > window.y / 2;
     const float room = (rightwards ? window.x - clear->x : clear->x) - 3 * margin();
     const bool beside = room >= em * kLeastWidth;
 
@@ -158,10 +164,12 @@ SceneChange Panel::drawTab(const ViewState& state, WindowState& shown,
 SceneChange Panel::draw(const ViewState& state, float bottom, WindowState& shown,
                         std::vector<std::string>& said) {
   if (std::exchange(selections_, state.selections) != state.selections) unfolds_ = state.selected;
+
   const bool moves = place(bottom);
   ImGui::SetNextWindowPos(ImVec2(left_, top_), moves ? ImGuiCond_Always : ImGuiCond_Appearing);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height_));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+
   SceneChange change;
   bool open = true;
   if (ImGui::Begin("whit", &open, ImGuiWindowFlags_AlwaysAutoResize)) {

@@ -1,3 +1,4 @@
+#include "viewer/ray_panel.h"
 #include "viewer/panel.h"
 #include "viewer/window.h"
 

@@ -8,7 +8,7 @@
 #include "io/load_scene.h"
 #include "make/studio_sky.h"
 #include "scene/members.h"
-#include "viewer/panel.h"
+#include "viewer/scene_panel.h"
 
 namespace whit::view {
 
@@ -104,7 +104,7 @@ void drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
     if (ImGui::TreeNode(kind, "%s", name.c_str())) {
       const Item before = items[i];
       ImGui::BeginDisabled(before.pointer.empty());  // no setting can name it
-      if (draw(items[i])) state(before, items[i], origin, settings);
+      if (draw(items[i])) addMemberSettings(before, items[i], origin, settings);
       ImGui::EndDisabled();
       ImGui::TreePop();
     }
@@ -195,8 +195,8 @@ std::vector<std::string> drawScene(const Sky& ownSky, Selection& unfolds, Edited
   drawItems(scene.materials, "material", unfolds.material, drawMembers<Material>, origin, settings);
 
   ImGui::TextDisabled("surroundings");
-  if (drawSky(ownSky, scene.sky)) stateSky(scene, settings);
-  if (drawAmbient(!isNoSky(scene.sky), scene.ambient)) stateAmbient(scene, settings);
+  if (drawSky(ownSky, scene.sky)) addSkySetting(scene, settings);
+  if (drawAmbient(!isNoSky(scene.sky), scene.ambient)) addAmbientSetting(scene, settings);
   ImGui::PopItemWidth();
   return settings;
 }

@@ -313,13 +313,13 @@ void Window::followPointer() {
   if (!input.pointer) return;
   const Input::Click at{input.pointer->x, input.pointer->y};
   if (input.pointer->down) {
-    if (!pointed_ && !ImGui::GetIO().WantCaptureMouse) pointed_ = at;
+    if (!scriptPressed_ && !ImGui::GetIO().WantCaptureMouse) scriptPressed_ = at;
     return;
   }
 
   // A script clicks where its pointer goes down and up in the same place.
-  if (pointed_ && pointed_->x == at.x && pointed_->y == at.y) click_ = at;
-  pointed_.reset();
+  if (scriptPressed_ && scriptPressed_->x == at.x && scriptPressed_->y == at.y) click_ = at;
+  scriptPressed_.reset();
 }
 
 void Window::end() {

@@ -120,14 +120,15 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   unsigned int texture_ = 0;
-  ImageSize size_, madeFor_;  // of the picture; a size of zero: there is none
+  ImageSize size_;     // size of the picture; zero: there is none
+  ImageSize madeFor_;  // size of the window that the picture was made for
   double cursorX_ = 0, cursorY_ = 0;
   double scale_ = 1;
   Drag Drags::*dragged_ = nullptr;      // null: no button is down on the picture
   double pressedX_ = 0, pressedY_ = 0;  // where it went down
   std::optional<Input::Click> click_;
-  std::optional<Input::Click> pointed_;  // where a script's pointer went down on the picture
-  int windowedX_ = 0, windowedY_ = 0;    // place and size before full screen
+  std::optional<Input::Click> scriptPressed_;  // where a script pressed the button on the picture
+  int windowedX_ = 0, windowedY_ = 0;          // place and size before full screen
   ImageSize windowed_;
 };
 

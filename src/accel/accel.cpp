@@ -16,9 +16,9 @@
 
 namespace whit {
 
-struct Accel::Parts {
-  Parts(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
-        Progress* progress)
+struct Accel::Impl {
+  Impl(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
+       Progress* progress)
       : embree(scene, options, effects, threads, progress) {}
 
   // The width of a packet of shadow rays.
@@ -60,15 +60,6 @@ struct ShadowRange {
   bool coherent = false;
 };
 
-template <typename Columns>
-Vec3f originAt(const Columns& c, std::size_t i) {
-  return c.org.at(i);
-}
-template <typename Columns>
-Vec3f directionAt(const Columns& c, std::size_t i) {
-  return c.dir.at(i);
-}
-
 void store(const Hit& hit, const HitRange& range, std::size_t i) {
   const HitColumns& hits = range.hits;
   hits.triangle[i] = hit.triangle;
@@ -106,9 +97,11 @@ Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& di
   context.trace(scene.top(), r);
 
   const unsigned instance = r.hit.instID[0];
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};
-  return {scene.triangleOf(instance, r.hit.geomID, r.hit.primID), scene.instanceOf(instance),
-          r.ray.tfar, r.hit.u, r.hit.v};
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+    return {kMiss, kNoInstance, r.ray.tfar, r.hit.u, r.hit.v};
+  }
+  return {scene.triangleOf(instance, r.hit.geomID, r.hit.primID), instanceOf(instance), r.ray.tfar,
+          r.hit.u, r.hit.v};
 }
 
 bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, float tFar,
@@ -122,16 +115,16 @@ bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& dire
   return !(r.ray.tfar >= 0);
 }
 
-Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& direction,
+Hit findHit(const Accel::Impl& impl, const Vec3f& origin, const Vec3f& direction,
             float tNear = 0) noexcept {
-  Hit hit = findUnrefined(parts.embree, origin, direction, false, tNear);
+  Hit hit = findUnrefined(impl.embree, origin, direction, false, tNear);
   if (!hit.found()) return hit;
 
   // The kernel refines whole blocks of hits; this one holds a single hit in its first slot.
   alignas(64) float words[9][kBlock] = {};
   alignas(64) std::uint32_t triangle[kBlock], instance[kBlock];
   std::fill_n(triangle, kBlock, kMiss);
-  std::fill_n(instance, kBlock, kMiss);
+  std::fill_n(instance, kBlock, kNoInstance);
   for (int i = 0; i < 3; ++i) {
     words[i][0] = origin[i];
     words[3 + i][0] = direction[i];
@@ -142,8 +135,7 @@ Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& directi
   words[7][0] = hit.u;
   words[8][0] = hit.v;
   RayColumns rays{{words[0], words[1], words[2]}, {words[3], words[4], words[5]}};
-  parts.kernels.refineHits(parts.tables, rays, 1,
-                           {triangle, words[6], words[7], words[8], instance});
+  impl.kernels.refineHits(impl.tables, rays, 1, {triangle, words[6], words[7], words[8], instance});
   return {hit.triangle, hit.instance, words[6][0], words[7][0], words[8][0]};
 }
 
@@ -229,10 +221,10 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
 }
 
 template <int kWidth>
-std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double& embreeMs) {
-  const EmbreeScene& scene = parts.embree;
+std::size_t traceRange(const Accel::Impl& impl, const HitRange& range, double& embreeMs) {
+  const EmbreeScene& scene = impl.embree;
   const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
-    parts.kernels.packRays(advanced(range.rays, begin), n, scene.reach(), group.words());
+    impl.kernels.packRays(advanced(range.rays, begin), n, scene.reach(), group.words());
     // Embree writes the ids of hits only, so the ids start as those of a miss.
     for (const auto p : indices(group.count)) {
       std::fill_n(group.packets[p].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
@@ -243,11 +235,11 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
     HitColumns to = advanced(range.hits, begin);
     if (!range.instances) to.instance = nullptr;
-    parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
+    impl.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
 
     // refineHits() reads the corners once all rays of the chunk are traced.
     for (const auto i : indices(n)) {
-      if (to.triangle[i] != kMiss) __builtin_prefetch(parts.tables.triangles + to.triangle[i]);
+      if (to.triangle[i] != kMiss) __builtin_prefetch(impl.tables.triangles + to.triangle[i]);
     }
   };
 
@@ -255,39 +247,38 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
 }
 
 template <int kWidth>
-std::size_t traceRange(const Accel::Parts& parts, const ShadowRange& range, double& embreeMs) {
-  const EmbreeScene& scene = parts.embree;
+std::size_t traceRange(const Accel::Impl& impl, const ShadowRange& range, double& embreeMs) {
+  const EmbreeScene& scene = impl.embree;
   const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
-    parts.kernels.packShadowRays(advanced(range.rays, begin), n, scene.reach(), group.words());
+    impl.kernels.packShadowRays(advanced(range.rays, begin), n, scene.reach(), group.words());
   };
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
-    parts.kernels.unpackVisibility(group.words(), n, range.rays.slot + begin, range.visible);
+    impl.kernels.unpackVisibility(group.words(), n, range.rays.slot + begin, range.visible);
   };
 
   return traceGroups<kWidth, Rays<kWidth>>(scene, kShadowMask, range, embreeMs, pack, unpack);
 }
 
 void traceSingly(const EmbreeScene& scene, const HitRange& range, std::size_t i) {
-  store(
-      findUnrefined(scene, originAt(range.rays, i), directionAt(range.rays, i), range.coherent, 0),
-      range, i);
+  store(findUnrefined(scene, range.rays.org.at(i), range.rays.dir.at(i), range.coherent, 0), range,
+        i);
 }
 
 void traceSingly(const EmbreeScene& scene, const ShadowRange& range, std::size_t i) {
-  const bool blocked = isOccluded(scene, originAt(range.rays, i), directionAt(range.rays, i),
+  const bool blocked = isOccluded(scene, range.rays.org.at(i), range.rays.dir.at(i),
                                   range.rays.tFar[i], range.coherent);
   range.visible[range.rays.slot[i]] = blocked ? 0.0f : 1.0f;
 }
 
 // Returns the number of lanes.
 template <typename Range>
-std::size_t traceAll(const Accel::Parts& parts, int packet, const Range& range, double& embreeMs) {
-  if (packet == 16) return traceRange<16>(parts, range, embreeMs);
-  if (packet == 8) return traceRange<8>(parts, range, embreeMs);
-  if (packet == 4) return traceRange<4>(parts, range, embreeMs);
+std::size_t traceAll(const Accel::Impl& impl, int packet, const Range& range, double& embreeMs) {
+  if (packet == 16) return traceRange<16>(impl, range, embreeMs);
+  if (packet == 8) return traceRange<8>(impl, range, embreeMs);
+  if (packet == 4) return traceRange<4>(impl, range, embreeMs);
 
   const Stopwatch stopwatch;
-  for (const auto i : indices(range.n)) traceSingly(parts.embree, range, i);
+  for (const auto i : indices(range.n)) traceSingly(impl.embree, range, i);
   embreeMs += stopwatch.ms();
   return range.n;
 }
@@ -306,7 +297,7 @@ int isNearEdge(float u, float v) {
 // Among triangles at one distance, Embree keeps one that depends on the order of its tests, and the
 // other rays of a packet change that order. Hits near an edge are therefore traced again, each by
 // itself, in the one order that a single ray has.
-void retraceEdgeHits(const Accel::Parts& parts, const HitRange& range) noexcept {
+void retraceEdgeHits(const Accel::Impl& impl, const HitRange& range) noexcept {
   constexpr std::size_t kRun = 4 * kBlock;  // hits that are tested together for any near an edge
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
@@ -320,7 +311,7 @@ void retraceEdgeHits(const Accel::Parts& parts, const HitRange& range) noexcept 
 
     for (std::size_t i = begin; i < end; ++i) {
       if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
-      const Hit hit = findHit(parts, originAt(range.rays, i), directionAt(range.rays, i));
+      const Hit hit = findHit(impl, range.rays.org.at(i), range.rays.dir.at(i));
       if (hit.found()) store(hit, range, i);
     }
   }
@@ -346,7 +337,7 @@ void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) 
 
   for (const auto i : indices(range.n)) {
     if (isNearEye(range.rays, hits.t, i) == 0) continue;
-    const Vec3f origin = originAt(range.rays, i), direction = directionAt(range.rays, i);
+    const Vec3f origin = range.rays.org.at(i), direction = range.rays.dir.at(i);
 
     // Each attempt passes over twice the distance of the one before.
     for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
@@ -378,27 +369,27 @@ const char* instructionSet(int widest) {
 
 Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
              Progress* progress)
-    : scene_(scene), parts_(std::make_unique<Parts>(scene, options, effects, threads, progress)) {
-  parts_->placeInstances(scene);
-  const int widest = parts_->embree.widestPacket();
-  parts_->packet = options.packet == 0 ? widest : options.packet;
+    : scene_(scene), impl_(std::make_unique<Impl>(scene, options, effects, threads, progress)) {
+  impl_->placeInstances(scene);
+  const int widest = impl_->embree.widestPacket();
+  impl_->packet = options.packet == 0 ? widest : options.packet;
 
   // Embree's version is a decimal number: 31305 stands for 3.13.5.
-  const auto version = rtcGetDeviceProperty(parts_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
-  parts_->description = formatted("%zd.%zd.%zd %s", version / 10000, version / 100 % 100,
-                                  version % 100, instructionSet(widest));
+  const auto version = rtcGetDeviceProperty(impl_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
+  impl_->description = formatted("%zd.%zd.%zd %s", version / 10000, version / 100 % 100,
+                                 version % 100, instructionSet(widest));
 }
 
 Accel::~Accel() = default;
 
 void Accel::sceneMoved() {
-  parts_->embree.update(scene_);
-  parts_->placeInstances(scene_);
+  impl_->embree.update(scene_);
+  impl_->placeInstances(scene_);
 }
 
-int Accel::packet() const { return parts_->packet; }
-std::string Accel::description() const { return parts_->description; }
-std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }
+int Accel::packet() const { return impl_->packet; }
+std::string Accel::description() const { return impl_->description; }
+std::uint64_t Accel::memoryBytes() const { return impl_->embree.memoryBytes(); }
 
 void Accel::findHits(Chunk& c) const noexcept {
   const bool instances = c.has(Feature::instances);
@@ -409,22 +400,22 @@ void Accel::findHits(Chunk& c) const noexcept {
     if (range.n == 0) continue;
     RayTally& tally = entryOf(c.meter->tally, segment.kind);
     tally.rays += range.n;
-    tally.lanes += traceAll(*parts_, parts_->packet, range, c.meter->embreeMs);
+    tally.lanes += traceAll(*impl_, impl_->packet, range, c.meter->embreeMs);
   }
 
   // Kernels run over whole vectors, so the slots behind the last ray must be misses.
   std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
-  parts_->kernels.refineHits(parts_->tables, c.rays, c.n, c.hits);
+  impl_->kernels.refineHits(impl_->tables, c.rays, c.n, c.hits);
 
   // The rays of a packet must not influence which of two neighbors is hit on their edge.
   const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
-  if (parts_->packet != 1) retraceEdgeHits(*parts_, all);
+  if (impl_->packet != 1) retraceEdgeHits(*impl_, all);
 
   // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
   if (enclosed_) {
     for (const auto i : indices(all.n)) {
       if (c.hits.triangle[i] != kMiss) continue;
-      const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
+      const Hit hit = closest(c.rays.org.at(i), c.rays.dir.at(i));
       if (hit.found()) store(hit, all, i);
     }
   }
@@ -438,21 +429,21 @@ void Accel::checkShadows(Chunk& c) const noexcept {
   const ShadowRange range{c.shadows, c.unshadowed.visible, c.shadowCount, c.shadowsAreCoherent()};
   RayTally& tally = entryOf(c.meter->tally, kind);
   tally.rays += range.n;
-  tally.lanes += traceAll(*parts_, parts_->shadowPacket(range.coherent), range, c.meter->embreeMs);
+  tally.lanes += traceAll(*impl_, impl_->shadowPacket(range.coherent), range, c.meter->embreeMs);
 }
 
 Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
-  Hit hit = findHit(*parts_, origin, direction, tNear);
+  Hit hit = findHit(*impl_, origin, direction, tNear);
 
   // Directions next to this one do not meet the corner that let the ray through.
   for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
-    hit = findHit(*parts_, origin, nudged(direction, attempt), tNear);
+    hit = findHit(*impl_, origin, nudged(direction, attempt), tNear);
   }
   return hit;
 }
 
 bool Accel::occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept {
-  return isOccluded(parts_->embree, origin, direction, tFar);
+  return isOccluded(impl_->embree, origin, direction, tFar);
 }
 
 void findHits(Chunk& c) { c.frame->accel->findHits(c); }

@@ -15,7 +15,7 @@ namespace whit {
 
 // The hit of a single ray; the numbers are those of HitColumns.
 struct Hit {
-  std::uint32_t triangle = kMiss, instance = kMiss;
+  std::uint32_t triangle = kMiss, instance = kNoInstance;
   float t = 0, u = 0, v = 0;
   bool found() const { return triangle != kMiss; }
 };
@@ -61,11 +61,11 @@ class Accel {
   std::string description() const;  // "3.13.5 avx2"
   std::uint64_t memoryBytes() const;
 
-  struct Parts;  // accel.cpp; no other folder sees Embree
+  struct Impl;  // accel.cpp; no other folder sees Embree
 
  private:
   const Scene& scene_;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Impl> impl_;
   bool enclosed_ = false;
 };
 

@@ -127,7 +127,7 @@ float AlphaMap::marginAt(float u, float v, float cutoff, bool cutoffVaries) cons
   return top * (1 - y.fraction) + bottom * y.fraction - cutoff;
 }
 
-std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
+std::vector<Mask> makeMasks(const Scene& scene, EffectSet effects) {
   // Materials with the same texture share one map.
   std::vector<std::shared_ptr<const AlphaMap>> maps(scene.textures.size());
   const auto mapOf = [&](std::int32_t number) {
@@ -140,7 +140,7 @@ std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
   for (const Material& material : scene.materials) {
     Mask& mask = masks.emplace_back();
     mask.doubleSided = material.doubleSided;
-    if (!cut || material.alphaMap == kNoTexture) continue;
+    if (!effects.has(Effect::alphaMasks) || material.alphaMap == kNoTexture) continue;
     mask.map = mapOf(material.alphaMap);
     mask.cutoff = material.alphaCutoff;
     mask.shadowCutoff = material.shadowCutoff();

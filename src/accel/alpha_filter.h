@@ -50,8 +50,8 @@ struct Mask {
   bool byVertex = false;  // Material::alphaByVertex, in scenes with second texture coordinates
 };
 
-// One mask a material; none of them has a map unless the scene is `cut`.
-std::vector<Mask> makeMasks(const Scene& scene, bool cut);
+// Returns one mask for each material. None has a map without Effect::alphaMasks.
+std::vector<Mask> makeMasks(const Scene& scene, EffectSet effects);
 
 // A margin of alpha below this may change its sign with the rounding of u and v, which differs
 // between processors in Embree.

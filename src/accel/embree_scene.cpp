@@ -44,7 +44,7 @@ struct ExactHit {
 ExactHit exactHit(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const auto& triangles = *static_cast<const FilteredTriangles*>(args.geometryUserPtr);
   const unsigned placed = args.context->instID[0];
-  const std::uint32_t instance = isInWorld(placed) ? kNoInstance : placed - kFirstInstanceId;
+  const std::uint32_t instance = instanceOf(placed);
   const std::uint32_t triangle = triangles.first + RTCHitN_primID(args.hit, args.N, lane);
   const Corners corners = worldCorners(triangles.scene, triangle, instance);
 
@@ -57,9 +57,7 @@ ExactHit exactHit(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const double slope = dot(cross(e1, e2), direction);
   const Vec3d moment = cross(direction, corners[0] - origin);
 
-  // A mirroring transform swaps the sides of a triangle.
-  const bool mirrored =
-      instance != kNoInstance && triangles.scene.instances[instance].toWorld.determinant() < 0;
+  const bool mirrored = isMirrored(triangles.scene, instance);
   return {-dot(e2, moment) / slope, dot(e1, moment) / slope, mirrored ? -slope : slope};
 }
 
@@ -161,7 +159,8 @@ void requireRoomForThreads(int threads) {
   void* const volatile room = ::operator new(needed << 20, std::nothrow);
   ::operator delete(room);
   if (!room) {
-    throwLimit(concat("Embree's threads need ", needed, " MB of addresses: memory ran out"));
+    throwLimit(concat("Embree's threads need ", needed,
+                      " MB of address space, more than is left (ulimit -v): use fewer --threads"));
   }
 }
 
@@ -171,7 +170,9 @@ class Building {
  public:
   Building() {
     if (count > 0 && process != getpid()) {
-      throwUsage("this process was forked while another thread built: nothing can be built here");
+      throwUsage(
+          "this process was forked while another thread built an acceleration structure, so it "
+          "cannot build one: fork before, or start a new process");
     }
     process = getpid();
     ++count;
@@ -218,8 +219,7 @@ void commitScene(RTCDevice device, RTCScene scene, Progress* progress) {
 
 EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects,
                          int threads, Progress* progress)
-    : masks_(makeMasks(scene, effects.has(Effect::alphaMasks))),
-      instances_(effects.has(Effect::instances)) {
+    : masks_(makeMasks(scene, effects)), instances_(effects.has(Effect::instances)) {
   device_ = newDevice(threads);
   const auto has = [this](RTCDeviceProperty what) {
     return rtcGetDeviceProperty(device(), what) != 0;

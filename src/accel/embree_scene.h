@@ -60,12 +60,8 @@ class EmbreeScene {
   const std::uint32_t* triangleBase(std::size_t placed) const {
     return &triangleBase_[placed * kTriangleClasses];
   }
-  // Returns the instance of a hit from Embree's instance id; kMiss in the world.
-  std::uint32_t instanceOf(unsigned id) const {
-    return isInWorld(id) ? kMiss : id - kFirstInstanceId;
-  }
   std::uint32_t triangleOf(unsigned id, unsigned geometry, unsigned primitive) const {
-    const std::size_t placed = isInWorld(id) ? 0 : 1 + (id - kFirstInstanceId);
+    const std::size_t placed = isInWorld(id) ? 0 : 1 + instanceOf(id);
     return triangleBase(placed)[geometry] + primitive;
   }
   // Rays with an origin or a direction beyond this are not traced (see instanceReach).

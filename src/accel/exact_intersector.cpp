@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "bake/facet.h"
@@ -14,7 +13,7 @@ namespace whit {
 
 namespace {
 
-double sumOf(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+double sumOfSizes(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // The sign of a number that is known up to an error.
 enum class Sign { negative, unknown, positive };
@@ -81,8 +80,9 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
   const Vec3d ab = corners[1] - corners[0];
   const Vec3d bc = corners[2] - corners[1];
   const Vec3d ca = corners[0] - corners[2];
-  const double sizeA = sumOf(a), sizeB = sumOf(b), sizeC = sumOf(c), sizeD = sumOf(ray.direction);
-  const double sizeAB = sumOf(ab), sizeBC = sumOf(bc), sizeCA = sumOf(ca);
+  const double sizeA = sumOfSizes(a), sizeB = sumOfSizes(b), sizeC = sumOfSizes(c),
+               sizeD = sumOfSizes(ray.direction);
+  const double sizeAB = sumOfSizes(ab), sizeBC = sumOfSizes(bc), sizeCA = sumOfSizes(ca);
 
   const double moved = cornerError(scene_, id);
   const auto errorOf = [&](double size, double edge) {
@@ -128,10 +128,7 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
   hit.u = std::clamp(wb / sum, 0.0, 1.0);
   hit.v = std::clamp(wc / sum, 0.0, 1.0 - hit.u);
 
-  // A mirroring transform swaps the sides of a triangle.
-  const bool mirrored =
-      id.instance != kNoInstance && scene_.instances[id.instance].toWorld.determinant() < 0;
-  hit.back = (slope > 0) != mirrored;
+  hit.back = (slope > 0) != isMirrored(scene_, id.instance);
 
   return isSolid(maskOf(id.triangle), scene_, hit) ? std::optional(hit) : std::nullopt;
 }
@@ -148,9 +145,9 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
   const Vec3d nearest = origin + direction * along;
 
   // The condition number of the map bounds by how much it magnifies rounding errors.
-  const double stretch = (sumOf(rows[0]) + sumOf(rows[1]) + sumOf(rows[2])) *
-                         (sumOf(map.x) + sumOf(map.y) + sumOf(map.z));
-  const double error = 64 * 0x1p-53 * stretch * (1 + sumOf(origin));
+  const double stretch = (sumOfSizes(rows[0]) + sumOfSizes(rows[1]) + sumOfSizes(rows[2])) *
+                         (sumOfSizes(map.x) + sumOfSizes(map.y) + sumOfSizes(map.z));
+  const double error = 64 * 0x1p-53 * stretch * (1 + sumOfSizes(origin));
 
   const double halfChord2 = 1 - dot(nearest, nearest);
   if (!(halfChord2 > -error)) return 0;
@@ -195,15 +192,14 @@ bool ExactIntersector::areCoincident(PlacedTriangleId a, PlacedTriangleId b) con
   return contains(scene_.coplanar.partnersOf(a), b);
 }
 
-// Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.
+// True if light hits `a` rather than `b`, by the rule of preferenceOf().
 bool ExactIntersector::comesBefore(PlacedTriangleId a, PlacedTriangleId b) const {
   const auto preference = [&](PlacedTriangleId id) {
     const std::uint32_t material = scene_.triangles[id.triangle].material;
     const std::uint8_t medium = scene_.mediumOfMaterial[material];
     const bool isSphere = scene_.isSphere(id.triangle);
     const std::uint64_t rank = isSphere ? orderOf(id) : scene_.coplanar.rankOf(id);
-    return std::tuple(!scene_.materials[material].passesLight(), medium == 0,
-                      scene_.media[medium].priority, rank);
+    return preferenceOf(scene_, !scene_.materials[material].passesLight(), medium, rank);
   };
 
   return preference(a) > preference(b);

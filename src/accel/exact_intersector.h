@@ -12,7 +12,8 @@ namespace whit {
 
 class ExactIntersector {
  public:
-  explicit ExactIntersector(const Scene& scene) : scene_(scene), masks_(makeMasks(scene, true)) {}
+  explicit ExactIntersector(const Scene& scene)
+      : scene_(scene), masks_(makeMasks(scene, EffectSet::all())) {}
 
   std::optional<QueryHit> hitTriangle(const QueryRay& ray, PlacedTriangleId id) const;
   // Returns the number of hits.

@@ -82,8 +82,8 @@ unsigned SphereGeometry::placeOf(unsigned instance) {
 
 // Returns the index of the sphere in Scene::triangles.
 std::uint32_t SphereGeometry::numberOf(const HitId& hit) const {
-  const std::uint32_t geometry =
-      isInWorld(hit.instance) ? 0 : scene_.instances[hit.instance - kFirstInstanceId].geometry;
+  const std::uint32_t instance = instanceOf(hit.instance);
+  const std::uint32_t geometry = instance == kNoInstance ? 0 : scene_.instances[instance].geometry;
   return scene_.geometries[geometry].firstTriangle + hit.primitive;
 }
 
@@ -112,7 +112,7 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
     carryRays(context, words, width, valid, inWorld.data());
     rays = inWorld.data();
     const std::uint32_t number = numberOf({instance, 0, firstPrimitive_ + primitive});
-    inverseInWorld = inverseOf(sphereInWorld(scene_, {number, instance - kFirstInstanceId}));
+    inverseInWorld = inverseOf(sphereInWorld(scene_, {number, instanceOf(instance)}));
     inverse = &inverseInWorld;
   }
 

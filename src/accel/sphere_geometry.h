@@ -16,6 +16,10 @@ inline constexpr unsigned kWorldId = 0;
 inline bool isInWorld(unsigned instance) {
   return instance == RTC_INVALID_GEOMETRY_ID || instance == kWorldId;
 }
+// Returns the index into Scene::instances, or kNoInstance in the world, from Embree's instance id.
+inline std::uint32_t instanceOf(unsigned id) {
+  return isInWorld(id) ? kNoInstance : id - kFirstInstanceId;
+}
 
 // The spheres of one of the scene's geometries, in their order. A hit looks as if it were on the
 // first triangle class of that geometry: the primitive's number is counted from there.

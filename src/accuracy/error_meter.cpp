@@ -16,7 +16,8 @@ namespace whit::accuracy {
 
 namespace {
 
-// The largest difference of a channel, in units of the last place of the largest channel of `b`.
+// Returns the largest difference of a channel, in units of the last place of the largest channel of
+// `b`.
 double ulpsApart(const Rgb& a, const Rgb& b) {
   const float largest = maxComponent(abs(b));
   if (!std::isfinite(largest)) return 0;

@@ -27,7 +27,7 @@ class ErrorMeter {
 
   const Image& truth() const { return transport_ ? transport_->image : reference_.image; }
   double referenceMs() const { return reference_.renderMs; }
-  // The displayed image.
+  // Returns a PNG of the displayed image.
   std::string pngOf(const Image& image) const;
 
  private:

@@ -13,12 +13,12 @@ struct PointList {
   std::vector<IdleKnob> idle;
 };
 
-// `base` with one knob changed at a time, and the presets of --quality. Knobs that change nothing
-// in a scene with these effects are left out.
+// Returns `base` with one knob changed at a time, and the presets of --quality. Knobs that change
+// nothing in a scene with these effects are left out.
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs);
 
-// The knobs that lead from one sample to all transport: numbers of samples of a pixel, a lobe or a
-// light, and light that the model leaves out.
+// Returns the knobs that lead from one sample to all transport: numbers of samples of a pixel, a
+// lobe or a light, and light that the model leaves out.
 std::vector<Knob> knobsTowardsTransport();
 // Adds combinations of the presets' samples a pixel with each value of the knobs of transport,
 // alone and with as many samples of lobes and lights. Leaves out points that `list` has already.

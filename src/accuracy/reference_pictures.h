@@ -14,7 +14,8 @@ namespace whit::accuracy {
 // The cutoff of the picture with all transport. Paths between diffuse surfaces do not end by
 // themselves.
 inline constexpr float kTransportCutoff = 1e-4f;
-// Options of packets that are exact and have all transport, with `samples` samples in every pixel.
+// Returns options of packets that are exact and have all transport, with `samples` samples in every
+// pixel.
 RenderOptions transportOptions(const RenderOptions& options, int samples);
 
 struct ReferencePicture {
@@ -57,8 +58,8 @@ class PassMean {
   std::vector<Image> passes_;
 };
 
-// The mean of kTransportPasses passes with these options, which must have Mode::packets; each has
-// options.spp samples.
+// Returns the mean of kTransportPasses passes with these options, which must have Mode::packets;
+// each has options.spp samples.
 TransportPicture renderTransport(const Scene& scene, const Camera& camera,
                                  const RenderOptions& options, Progress* progress);
 
@@ -67,7 +68,7 @@ class ReferenceCache {
  public:
   ReferenceCache(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
 
-  // `options` must have Mode::reference.
+  // Returns the picture with these options, which must have Mode::reference. It is rendered once.
   const ReferencePicture& get(const RenderOptions& options, Progress* progress);
 
  private:

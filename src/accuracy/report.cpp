@@ -17,7 +17,7 @@ namespace whit::accuracy {
 
 namespace {
 
-// JSON has no number for what is not finite.
+// Returns the number, or a word if it is not finite, which JSON has no number for.
 Json numberOf(double value) {
   if (std::isfinite(value)) return value;
   return value > 0 ? "inf" : "nan";
@@ -29,7 +29,7 @@ Json orNull(bool known, const Value& value) {
   return nullptr;
 }
 
-// Null: the difference was not measured.
+// Adds the measures of a difference. Null stands for one that was not measured.
 void addDifference(Json& row, const std::string& group, const ImageDifference* d) {
   const auto add = [&](const char* name, double value) {
     row[group + name] = d ? numberOf(value) : Json();

@@ -15,7 +15,7 @@ namespace whit::accuracy {
 
 namespace {
 
-// Knobs that are left out are added to `idle`.
+// Returns the knobs to sweep. Those that are left out are added to `idle`.
 std::vector<Knob> sweptKnobs(const SweepSettings& settings, std::vector<IdleKnob>& idle) {
   const bool transport = settings.truth == Truth::transport;
   if (transport && settings.knobs.empty() && !settings.full) return knobsTowardsTransport();
@@ -32,13 +32,15 @@ std::vector<Knob> sweptKnobs(const SweepSettings& settings, std::vector<IdleKnob
   return knobs;
 }
 
-// The rays of a frame, and of a sample of the exact picture, limit what is measured.
+// Returns the limits of what is measured. They follow from the rays of a frame, and from those of a
+// sample of the exact picture.
 Scope scopeOf(const RenderOptions& base, EffectSet effects, const SweepSettings& settings,
               const FrameSource& baseline, ReferenceCache& cache) {
   Scope scope{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0};
   if (settings.referenceSpp > 0) {
     scope.limits.samples = scope.limits.leastSamples = settings.referenceSpp;
   }
+
   scope.cutoff = exactCutoff(effects, settings.full);
   const ReferencePicture& exact = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr);
   scope.raysPerSample = exact.rays / base.spp;
@@ -94,7 +96,7 @@ TransportPicture transportTruth(const Scene& scene, const Camera& camera, const 
   return picture;
 }
 
-// A random order, in which a quick sweep puts the minor values last.
+// Returns a random order, in which a quick sweep puts the minor values last.
 std::vector<std::size_t> chooseOrder(const std::vector<Point>& points,
                                      const SweepSettings& settings) {
   std::vector<std::size_t> order(points.size() - 1);
@@ -106,7 +108,8 @@ std::vector<std::size_t> chooseOrder(const std::vector<Point>& points,
   return order;
 }
 
-// An approximation that changes neither rays nor pixels does not apply to this scene.
+// Returns true for an approximation that changes neither rays nor pixels: it does not apply to this
+// scene.
 bool changesNothing(const Point& point, const FrameSource& frames, const FrameSource& baseline) {
   if (point.kind != PointKind::knob || point.cause != Cause::algorithm) return false;
 

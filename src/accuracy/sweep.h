@@ -12,7 +12,8 @@
 
 namespace whit::accuracy {
 
-// Most limits count rays, so that the reference depends on the speed of slow machines only.
+// Limits of a sweep. Most of them count rays, so that the reference depends on the machine's speed
+// only if it is slow.
 struct Limits {
   int samples, leastSamples;
   double referenceRays;  // rays for the reference

@@ -57,7 +57,7 @@ struct PlacedTriangle {
     for (const Vec3f& p : corners) {
       // Adding 0 turns -0 into +0, because both are the same position.
       for (const float x : {p.x, p.y, p.z})
-        all = mixed(all + std::bit_cast<std::uint32_t>(x + 0.0f));
+        all = mixed64(all + std::bit_cast<std::uint32_t>(x + 0.0f));
     }
     return all;
   }

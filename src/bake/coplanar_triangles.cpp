@@ -119,7 +119,7 @@ void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
 // The slot of the triangle, or the free slot where it would be stored.
 std::size_t CoplanarTriangles::slotOf(PlacedTriangleId id) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t i = mixed(orderOf(id)) & mask;
+  std::size_t i = mixed64(orderOf(id)) & mask;
   while (slots_[i].count != 0 && slots_[i].id != id) i = (i + 1) & mask;
   return i;
 }

@@ -35,7 +35,7 @@ inline PlacedTriangleId placedTriangle(std::uint64_t order) {
 }
 
 // The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-inline std::uint64_t mixed(std::uint64_t x) {
+inline std::uint64_t mixed64(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);

@@ -1,6 +1,8 @@
 // A placed triangle, tests whether two of them overlap or touch in one plane, the part of one that
-// another covers, and surfaces that contain the eye.
+// another covers, which of them is hit, and surfaces that contain the eye.
 #pragma once
+
+#include <tuple>
 
 #include "bake/scene.h"
 #include "core/affine.h"
@@ -50,6 +52,21 @@ bool facetsTouch(const Facet& a, const Facet& b);
 bool isTooNarrowToOverlap(const Facet& facet);
 // The part of `on` that `of`, in its plane, covers.
 CoveredPart coveredPart(const Facet& on, const Facet& of);
+
+// Returns the preference for one of several coincident surfaces; light hits the greatest. Opaque
+// surfaces come before sheets, and these before dielectrics, of which the highest priority wins.
+// Among equals the greatest rank wins: that of the surface that was written last in the scene.
+inline auto preferenceOf(const Scene& scene, bool opaque, std::uint32_t medium,
+                         std::uint64_t rank) {
+  return std::tuple(opaque, medium == 0, scene.media[medium].priority, rank);
+}
+
+// True if the transform of the instance mirrors, so that it swaps the sides of triangles; false in
+// the world.
+inline bool isMirrored(const Scene& scene, std::uint32_t instance) {
+  const Affine* toWorld = toWorldOf(scene, instance);
+  return toWorld && toWorld->determinant() < 0;
+}
 
 // True if the eye lies in the triangle's plane, up to the rounding of the eye's coordinates. It
 // sees nothing of such a surface, on whichever side a rounded distance of next to 0 would put it.

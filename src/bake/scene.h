@@ -33,14 +33,14 @@ struct alignas(64) TriangleRecord {
 };
 static_assert(sizeof(TriangleRecord) == 64);
 
-// One a corner; all three equal the face's where the mesh has none. Of unit length, or where a
-// transform has stretched the model, of lengths in the proportion that this gives them, the longest
-// about 1: so their mean anywhere on the triangle is that of the model's unit normals, carried
-// along.
+// One normal for each corner; all three are the face's where the mesh has none. They have unit
+// length unless a transform has stretched the model: then they keep the relative lengths that the
+// transform gives them, the longest about 1, so that interpolating and transforming commute.
 struct NormalRecord {
   float normal[9];
 };
-// By the square of a normal's length: whether that is not 1 up to the rounding of its components.
+// True if a normal whose length has this square is no unit vector, beyond the rounding of its
+// components.
 inline constexpr double kStretchedNormal = 1e-6;
 inline bool isStretched(double square) { return std::abs(square - 1) > kStretchedNormal; }
 

@@ -41,7 +41,7 @@ constexpr Series kSeries[] = {
     {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16"},
     {"threads-scaling", "1, 2, 4, ... threads as separate runs, with speed-up and efficiency",
      "threads", "..."},
-    {"ab-effects", "kernels with the scene's effects and with every effect as two runs", "effects",
+    {"ab-effects", "plans for the scene's effects and for every effect as two runs", "effects",
      "auto|all", true},
 };
 constexpr Series kOneRun{"", "", "", ""};
@@ -139,7 +139,7 @@ std::string scalingText(const std::vector<RunSummary>& runs) {
   return text;
 }
 
-// Runs that come in pairs add the ratio of the second run over the first.
+// Returns all runs. Runs that come in pairs add the ratio of the second run to the first.
 Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
   Json json{{"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
@@ -183,13 +183,14 @@ int benchCommand(const Words& words) {
   if (!parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
-  processorCounters();  // before the threads that they count
+  processorCounters();  // opened before the threads start whose events they count
+
   std::vector<RunSummary> summaries;
   BenchRuns runs;
 
   for (const auto i : indices(job.scenes)) {
     addRuns(runs, job.scenes[i], job, progress.get());
-    // Runs to be compared are held in memory together; others one after the other.
+    // Runs that are compared are held in memory together; other scenes are held one at a time.
     if (&job.series() != &kOneRun && i + 1 < job.scenes.size()) continue;
     measureInTurn(runs, job.turns(), progress.get());
     for (const auto& run : runs) summaries.push_back(run->summary());

@@ -42,7 +42,7 @@ struct CompareJob {
   std::string heatmap, json;
 };
 
-// The comparison of a channel. One that a picture lacks differs everywhere.
+// The comparison of a channel. A channel that one picture lacks differs everywhere.
 struct ChannelDifference {
   std::string name;    // "depth.Z"
   std::string onlyIn;  // "A" or "B", if the other picture lacks it
@@ -151,8 +151,8 @@ Compared compareModes(const CompareJob& job) {
   return result;
 }
 
-// Adds a row for each channel, and where `isA` is false only for those that the others lack. The
-// images have one size; one without alpha is opaque.
+// Adds a row for each channel of A; of B, with `isA` false, only for channels that A lacks. Both
+// images have one size; an image without alpha is opaque.
 void compareChannels(const std::vector<ImageLayer>& layers, const std::vector<ImageLayer>& others,
                      bool isA, std::vector<ChannelDifference>& rows) {
   for (const ImageLayer& layer : layers) {
@@ -243,13 +243,13 @@ void printStages(FILE* out, const std::vector<StageDifference>& rows) {
   }
 }
 
-// Upper bounds on the difference between two pictures of a scene where no tolerance is given.
-// Rounding decides between two paths here and there: most often between mirrors, where at 64
-// bounces it moves two pixels of a hundred by two codes. An error in the code moves more.
+// Upper bounds on the difference between packets and reference if no tolerance is given. Rounding
+// decides between two paths here and there, most often between mirrors: at 64 bounces it changes
+// two pixels of a hundred by two codes. An error in the code changes more.
 constexpr double kMostPixelsOffPct = 5, kMostEnergyOff = 0.02;
 
-// A NaN fails each of the conditions. Means leave out pixels that are not finite, so that these
-// fail by themselves.
+// Returns true if the pictures pass. A NaN fails each of the conditions. Means leave out pixels
+// that are not finite, so these fail in a condition of their own.
 bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   const bool judged = job.tolerance || job.subjects.size() == 1;
   if (judged && d.incomparable > 0) {
@@ -261,7 +261,8 @@ bool picturesPass(const CompareJob& job, const ImageDifference& d) {
 
   if (job.tolerance) {
     if (d.rmse <= *job.tolerance) return true;
-    std::fprintf(stderr, "whit: the RMSE is %.6g, and --tolerance %g\n", d.rmse, *job.tolerance);
+    std::fprintf(stderr, "whit: the RMSE is %.6g, which --tolerance %g does not allow\n", d.rmse,
+                 *job.tolerance);
     return false;
   }
 
@@ -294,8 +295,8 @@ bool channelsPass(const CompareJob& job, const std::vector<ChannelDifference>& c
     const double rmse = d.incomparable > 0 ? kInfinity : d.rms;
     if (rmse <= *job.tolerance) continue;
     std::fprintf(stderr,
-                 "whit: the RMSE of the channel %s is %.6g, and --tolerance %g (--colors compares "
-                 "the colors alone)\n",
+                 "whit: the RMSE of the channel %s is %.6g, which --tolerance %g does not allow "
+                 "(--colors compares the colors alone)\n",
                  printable(name).c_str(), rmse, *job.tolerance);
     return false;
   }

@@ -76,8 +76,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
-    const bool left = optionalEffectsOff(job.common.render).has(effect);
-    if (has.has(effect) && !left) add(nameOf(effect), kept);
+    const bool isOff = optionalEffectsOff(job.common.render).has(effect);
+    if (has.has(effect) && !isOff) add(nameOf(effect), kept);
   }
 
   // The frames of all steps take turns, so that other load of the machine affects all alike.
@@ -94,7 +94,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
 
 void checkJob(const EffectsJob& job) {
   refuseIf(job.out.empty(), "whit effects expected --out DIR");
-  refuseIf(job.common.render.mode == Mode::reference, "whit effects is for packets");
+  refuseIf(job.common.render.mode == Mode::reference,
+           "whit effects measures packets: leave out --mode reference");
   refuseIf(job.common.given.contains("effects") || job.common.given.contains("disable"),
            "whit effects chooses the effects itself: leave out --effects and --disable");
   makeFolder(job.out);

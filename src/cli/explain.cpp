@@ -89,7 +89,8 @@ struct Explained {
   }
 };
 
-// Lists what adds more than so much, and counts the rest.
+// The tree as text. Rays that add at least the share `least` of the pixel's radiance are listed,
+// and the others are counted.
 class TreeText {
  public:
   TreeText(const Explained& e, double least) : e_(e) {
@@ -115,6 +116,7 @@ class TreeText {
       leaveOut(number);
       return;
     }
+
     const RayText ray = describeRay(e_.scene, e_.rays, number);
     text_ += indent(n) + std::string(rowOf(n.kind).name) + ", weight " + textOf(n.weight) +
              ", in " + ray.medium + ": " + ray.hit + "\n";
@@ -142,16 +144,17 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
+
   const std::size_t rays = e.rays.packets.nodes.size();
-  bool parts = false;
-  for (const auto i : indices(rays)) parts |= e.rays.partsAt(i);
+  bool diverge = false;
+  for (const auto i : indices(rays)) diverge |= e.rays.divergesAt(i);
 
   std::string remarks;
   if (e.options.background.hidesSky()) {
     remarks += "  the picture shows --background " + backgroundText(e.options.background) +
                " where rays leave the scene straight on\n";
   }
-  if (parts) remarks += "  their paths part\n";
+  if (diverge) remarks += "  their paths diverge\n";
   if (!e.note().empty()) remarks += "  " + e.note() + "\n";
 
   return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
@@ -190,6 +193,8 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
             {"direction", jsonOf(n.direction)},     {"weight", jsonOf(n.weight)},
             {"medium", mediumName(scene, n.media)}, {"surface", surfaceJson(scene, n)},
             {"radiance", jsonOf(n.radiance)}};
+
+  // Only packets record what each light adds and why paths end.
   if (ofPackets) {
     json["emitted"] = jsonOf(n.emitted);
     json["local"] = jsonOf(n.local);
@@ -200,6 +205,7 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
     for (const RayKind kind : kImpulseKinds)
       json["ends"][std::string(rowOf(kind).name)] = nameOf(n.endOf(kind));
   }
+
   json["children"] = Json::array();
   for (const std::size_t child : n.children) {
     json["children"].push_back(nodeJson(scene, tree, child, ofPackets));
@@ -225,7 +231,7 @@ std::string lineSvg(const ScreenLine& line, RayLook look, double width,
       isDashed(look) ? " stroke-dasharray=\"4 3\"" : "", more.c_str());
 }
 
-// White letters with a black edge, which are legible on any picture.
+// Makes a text of the diagram. Its letters are white with a black edge, legible on any picture.
 std::string wordSvg(double x, double y, std::string_view word) {
   return formatted("<text x=\"%.1f\" y=\"%.1f\">%s</text>\n", x, y, std::string(word).c_str());
 }
@@ -243,9 +249,10 @@ std::string legendSvg(const std::vector<RayLine>& lines, int height) {
   return svg;
 }
 
-// An SVG of the picture's size with the rays as lines over it, as in Whitted's figure of 1980;
-// shadow rays are dashed. The eye, the lights, and the heaviest ray of each kind have their names
-// beside them. `picture` is a PNG of the scene by `camera`; `eye` is the camera of the rays.
+// Returns an SVG of the picture's size with the rays as lines over it, as in Whitted's figure of
+// 1980; shadow rays are dashed. The eye, the lights, and the ray of each kind with the largest
+// weight have their names beside them. `picture` is a PNG of the scene by `camera`; `eye` is the
+// camera of the rays.
 std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& camera, int width,
                        int height, const std::string& picture) {
   std::string svg = formatted(
@@ -253,14 +260,16 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
       "viewBox=\"0 0 %d %d\">\n<image width=\"%d\" height=\"%d\" href=\"",
       width, height, width, height, width, height);
   svg += "data:image/png;base64," + base64(picture) + "\"/>\n";
+
   const LineView view(camera, width, height);
   const std::vector<RayLine> lines = linesOf(tree, eye);
-  // Places of the words. Lines that weigh more come later and replace others.
+  // Places of the names. Lines of larger weight come later and replace earlier ones.
   std::map<std::string, ScreenLine> places;
   for (const RayLine& line : lines) {
     const auto seen = view.see(line.from, line.to);
     if (!seen) continue;
     svg += lineSvg(*seen, line.look, line.width, formatted(" data-node=\"%zu\"", line.node));
+
     const ScreenLine middle{(seen->x1 + seen->x2) / 2, (seen->y1 + seen->y2) / 2};
     const bool isShadow = line.look == RayLook{RayKind::shadow};
     const bool isPrimary = line.look.kind == RayKind::primary;
@@ -268,6 +277,7 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
     if (end && (isShadow || isPrimary)) places[isShadow ? "light" : "eye"] = *end;
     if (!isDashed(line.look)) places[std::string(styleOf(line.look).name)] = middle;
   }
+
   svg +=
       "<g font-family=\"sans-serif\" font-size=\"14\" fill=\"#fff\" stroke=\"#000\" "
       "stroke-width=\"3\" paint-order=\"stroke\">\n";
@@ -278,8 +288,8 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   return svg + legendSvg(lines, height) + "</g>\n</svg>\n";
 }
 
-// The picture by `camera` as a PNG, with as many samples as the scene asks for, but not so many
-// that a reader would wait.
+// Returns the picture by `camera` as a PNG. It has as many samples as the scene asks for, up to a
+// number for which nobody has to wait.
 std::string pictureBy(const Camera& camera, const Explained& e, ImageSize size, Renderer& renderer,
                       const ExplainJob& job) {
   constexpr int kMostSamples = 16;
@@ -317,11 +327,13 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
   const int x0 = e.place.x - (e.place.x - window.x0) % side,
             y0 = e.place.y - (e.place.y - window.y0) % side;
   const Crop tile{x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)};
+
   const ImageSize size{film.image.width, film.image.height};
   std::vector<RayText> words;
   for (const auto i : indices(e.rays.packets.nodes)) {
     words.push_back(describeRay(e.scene, e.rays, i));
   }
+
   const std::string picture = pictureBy(camera, e, size, renderer, job);
   return pageWith(kLesson,
                   {{"scene", e.scene.name},
@@ -341,11 +353,13 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
 int explainCommand(const Words& words) {
   ExplainJob job;
   if (!parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words)) return 0;
+
   if (job.pixel.empty()) throwUsage("whit explain expected --pixel x,y");
   if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
   requireSeparateFiles({job.svg, job.html, job.json}, job.common, job.scenes);
+
   auto progress = makeProgressBar(job.common);
   Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
@@ -355,6 +369,7 @@ int explainCommand(const Words& words) {
   // for.
   if (job.common.given.insert("spp").second) job.common.render.spp = 1;
   engine.setOptions(job.common.render, job.common.given);
+
   const Film film =
       makeFilm(engine.scene(), engine.requestedOptions(), job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
@@ -364,6 +379,8 @@ int explainCommand(const Words& words) {
 
   const Explained e{engine.scene(), engine.options(), place,
                     explainRays(renderer, camera, film, place.x, place.y), samplesOfPicture};
+
+  // The diagram is a file of its own, and part of the page.
   if (!job.svg.empty() || !job.html.empty()) {
     const std::string diagram = drawDiagram(job, e, renderer, camera);
     if (!job.svg.empty()) writeReport(job.svg, diagram);
@@ -371,6 +388,7 @@ int explainCommand(const Words& words) {
       writeReport(job.html, lessonPage(job, e, diagram, renderer, camera, film));
     }
   }
+
   if (!job.json.empty()) {
     writeJson(job.json, Json{{"scene", e.scene.name},
                              {"size", {film.image.width, film.image.height}},

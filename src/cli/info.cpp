@@ -27,6 +27,8 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
         {"on", reason.on && !disabled},
         {"because", reason.on && disabled ? "disabled by --disable" : reason.because}};
   }
+
+  // An effect that an option would turn on says which one.
   for (const OptionalEffect& optional : optionalEffects(options)) {
     Json& row = effects[std::string(entryOf(kEffectNames, optional.effect).name)];
     if (optional.isOn || row["on"] == false) continue;
@@ -36,7 +38,7 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
   return effects;
 }
 
-// The options of the picture that were given or are not the defaults, and who chose them.
+// Returns the options of the picture that were given or are not the defaults, and what set them.
 Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOptions& options) {
   const RenderOptions defaults;
   RenderOptions stated;
@@ -46,6 +48,7 @@ Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOp
     const std::string value = optionText(options, name);
     const bool isGiven = common.given.contains(name), isStated = scene.options.contains(name);
     if (!isGiven && !isStated && value == optionText(defaults, name)) continue;
+
     const char* from = scene.isModel ? "model" : "scene";
     if (value != optionText(stated, name)) from = "--quality";
     if (isGiven) from = "command line";
@@ -81,6 +84,7 @@ Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& comm
             {"effects", effectsJson(scene, options)},
             {"stages", Json::array()},
             {"kernels", Json::array()}};
+
   for (const Animation& animation : scene.animations) {
     json["animations"].push_back(
         {{"name", animation.name}, {"seconds", animation.seconds}, {"nodes", animation.nodes}});
@@ -88,6 +92,7 @@ Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& comm
   for (const auto& [kind, entry] : open.warnings.entries()) {
     json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
   }
+
   for (const Stage stage : plan.stages()) {
     json["stages"].push_back(entryOf(kStageNames, stage));
   }
@@ -183,7 +188,7 @@ int infoCommand(const Words& words) {
   auto progress = makeProgressBar(common);
 
   CommonOptions loading = common;
-  loading.warns = false;  // they are part of the report
+  loading.warns = false;  // the report lists the warnings
   const auto open = openAndWarn(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Plan plan = planOf(open->scene, options);

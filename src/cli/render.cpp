@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "engine/engine.h"
 #include "io/files.h"
+#include "output/background_writer.h"
 #include "output/digest.h"
 #include "output/film_pipe.h"
 #include "output/json_report.h"
@@ -153,6 +154,7 @@ class ImageWriter {
       about.insert(about.end(), more.begin(), more.end());
       return about;
     };
+
     if (job_.resume) {
       const Camera camera = camera_ ? *camera_ : engine_.camera();
       if (areWhole(files, film.image, complete(engine_.describe(camera, film)))) {
@@ -270,8 +272,8 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
   }
 }
 
-// Prints what was asked for besides the picture.
-void tell(const ImageWriter& writer, const RenderJob& job) {
+// Prints the statistics and the receipt that were asked for.
+void printReports(const ImageWriter& writer, const RenderJob& job) {
   if (job.common.quiet) return;
   if (job.stats) std::fputs(stageTable(writer.run()).c_str(), stderr);
   if (writer.receipt()) {
@@ -342,9 +344,9 @@ int render(RenderJob& job) {
   writer.finish();
   progress.reset();
 
-  const bool traced = !writer.run().frames.empty();  // else all images were there
+  const bool traced = !writer.run().frames.empty();  // false if --resume kept all images
   if (traced) {
-    tell(writer, job);
+    printReports(writer, job);
     printPictureWarnings(writer.run());
   }
 

@@ -91,8 +91,8 @@ void checkFrames(const RenderJob& job) {
            "--time is one instant, --frames are many: give one");
 }
 
-// A picture without -o goes to SCENE.png, and to a terminal that shows pictures. A model may have a
-// texture of that name, which is kept.
+// Chooses SCENE.png if no output is given, and a terminal that shows pictures. A model may have a
+// texture of that name, which is not overwritten.
 void chooseOutputs(RenderJob& job) {
   // Without -o the picture is shown as well, unless --quiet is given; otherwise only -o - shows it.
   const bool isPlain = job.outputs.empty();
@@ -108,7 +108,7 @@ void chooseOutputs(RenderJob& job) {
   const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
   const std::string file = scene.stem().string() + ".png";
   refuseIf(std::filesystem::exists(file) && !isOurPicture(file),
-           "'" + file + "' is there and is no picture by whit: name another file with -o");
+           "'" + file + "' exists and was not made by whit: name another file with -o");
   job.outputs.push_back(file);
 }
 
@@ -120,7 +120,7 @@ void checkBudget(RenderJob& job) {
   refuseIf(job.resume, option + ": what is chosen differs from run to run: leave out --resume");
 }
 
-// Warns that rays have to sample frosted glass, if the picture's do not.
+// Warns of frosted glass if the picture has no rays that sample it.
 void warnOfClearGlass(const RenderJob& job, const Scene& scene) {
   if (glossySamples(job.common.render) > 0) return;
   if (std::ranges::none_of(scene.materials, &Material::isFrosted)) return;
@@ -129,12 +129,13 @@ void warnOfClearGlass(const RenderJob& job, const Scene& scene) {
              stderr);
 }
 
-// The error of one sample is not known, which only an EXR can say.
+// Throws if the error of one sample is to be written as a PNG. That error is not known, which only
+// an EXR can express.
 void checkErrorChannel(const RenderJob& job) {
   if (job.common.render.spp > 1) return;
   for (const std::string& output : job.outputs) {
     refuseIf(extensionOf(output) == ".png" && channelNamedBy(output, {}) == Channel::error,
-             "'" + output + "': one sample tells no error: add --spp 2 or more");
+             "'" + output + "': one sample leaves the error unknown: add --spp 2 or more");
   }
 }
 

@@ -1,5 +1,4 @@
-// What whit render and whit turntable are asked for: their options, and the requests that they
-// refuse.
+// The options of whit render and whit turntable, and the requests that they refuse.
 #pragma once
 
 #include <optional>
@@ -39,12 +38,11 @@ struct RenderJob {
 
 OptionList listOptions(RenderJob& job);
 
-// Chooses the outputs that are not given. Throws if what is asked for cannot be, before anything is
-// loaded.
+// Chooses the outputs that are not given. Throws if the requests contradict each other or cannot be
+// met, before anything is loaded.
 void checkJob(RenderJob& job);
 
-// Throws if the scene, once it is open, cannot be rendered as asked for; warns of what the options
-// leave out.
+// Throws if the open scene cannot be rendered as asked for. Warns of what the options leave out.
 void checkScene(const RenderJob& job, const Scene& scene);
 
 }  // namespace whit::cli

@@ -31,7 +31,8 @@ int columnsOf(const DisplayImage& picture, const winsize& terminal, double width
   return std::max(1, static_cast<int>(picture.width * fits / width + 1e-6));
 }
 
-// The protocol takes at most 4096 bytes at a time. Without q=2 the terminal would answer.
+// Returns the picture in the protocol of kitty, which takes at most 4096 bytes at a time. Without
+// q=2 the terminal would answer.
 std::string kittyText(const std::string& data, int columns) {
   constexpr std::size_t kMost = 4096;
   std::string text = formatted("\x1b_Ga=T,f=100,q=2,c=%d,", columns);
@@ -43,7 +44,8 @@ std::string kittyText(const std::string& data, int columns) {
   return text + "\n";
 }
 
-// Each character shows two pixels, one above the other; what is transparent is black.
+// Returns the picture in characters that show two pixels each, one above the other. Transparent
+// parts are black.
 std::string halfBlocks(const DisplayImage& picture, int columns) {
   const double scale = static_cast<double>(columns) / picture.width;
   const int rows = std::max(1, static_cast<int>(std::lround(picture.height * scale)));

@@ -12,7 +12,7 @@ enum class TerminalGraphics { none, kitty, iterm, halfBlocks };
 // Returns the best method of the terminal on standard output, judging by the environment.
 TerminalGraphics terminalGraphics();
 
-// The picture as text for that terminal, reduced where it is larger.
+// Returns the picture as text for that terminal, reduced if it does not fit.
 std::string terminalPicture(const DisplayImage& picture, TerminalGraphics graphics);
 
 }  // namespace whit::cli

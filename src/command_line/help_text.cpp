@@ -24,7 +24,7 @@ namespace {
 constexpr int kLeastWidth = 40, kUsualWidth = 80, kLargestWidth = 120;
 constexpr std::size_t kNamesWidth = 28, kNarrowNamesWidth = 8;
 
-// Names on the left and their meaning beside them, or below where there is no room.
+// Returns names on the left with their meaning beside them, or below if there is no room.
 std::string row(const std::string& names, const std::string& meaning, std::size_t width) {
   const std::size_t column = width < kUsualWidth ? kNarrowNamesWidth : kNamesWidth;
   std::string text = "  " + names;
@@ -104,7 +104,8 @@ std::string valueLines(const std::string& word, const OptionList::Entry& entry) 
   return lines;
 }
 
-// One line that troff takes as it is: it would turn some characters into typographical ones.
+// Returns one line that troff prints as it is. Without escapes it would turn some characters into
+// typographical ones.
 std::string roff(const std::string& text) {
   static const std::map<char, std::string> kWritten{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                     {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"},
@@ -149,12 +150,12 @@ std::string helpText(const std::string& usage, const std::string& summary, const
     return tier == HelpTier::all || e.everyday;
   };
   auto groups = groupsOf(list, isListed);
-  const std::size_t left = list.entries.size() - std::ranges::count_if(list.entries, isListed);
+  const std::size_t others = list.entries.size() - std::ranges::count_if(list.entries, isListed);
 
   groups.push_back({"Help",
                     {{"-h,--help", "the options of every day"},
-                     {"--help-all", left > 0 ? formatted("all options, %zu more", left)
-                                             : std::string("all options")}}});
+                     {"--help-all", others > 0 ? formatted("all options, %zu more", others)
+                                               : std::string("all options")}}});
   if (contains(list.entries, "quality", &OptionList::Entry::name)) {
     groups.push_back({"What --quality stands for, where an option is not given", presetTerms()});
   }

@@ -12,25 +12,26 @@ namespace whit::cli {
 
 enum class HelpTier { everyday, all };
 
-// Usage, summary and options, lines of `width` columns at most where a word is not longer. The
-// everyday tier has the command's own options, and of those that all commands share the ones that
-// are wanted every day; it says how many are left out. Ends with what the presets stand for.
+// Returns usage, summary and options, in lines of at most `width` columns unless a word is longer.
+// The everyday tier has the command's own options, and of the options that all commands share only
+// those of every day; it says how many are left out. The text ends with what the presets stand for.
 std::string helpText(const std::string& usage, const std::string& summary, const OptionList& list,
                      HelpTier tier, int width);
 
-// The columns of the terminal that standard output is, else $COLUMNS, else 80; from 40 to 120.
+// Returns the columns of the terminal on standard output, else $COLUMNS, else 80; from 40 to 120.
 int helpWidth();
 
-// The shells' scripts ask the program itself, so that completion and --help cannot disagree.
-// The script that makes bash, zsh or fish call `program --complete WORD...`. Throws Error(usage)
-// for another shell.
+// Returns the script that makes bash, zsh or fish call `program --complete WORD...`. The shells ask
+// the program itself, so that completion and --help cannot disagree. Throws Error(usage) for
+// another shell.
 std::string completionScript(const std::string& shell, const std::string& program);
 
-// The completions of the last word, which may be empty: a line for each, with its meaning after a
-// tab. There are none where a file is expected.
+// Returns the completions of the last word, which may be empty: a line for each, with its meaning
+// after a tab. There are none if a file is expected.
 std::string completions(const std::vector<std::string>& words, const OptionList& list);
 
-// A name and its meaning as such a line, if the name begins with `word`; otherwise nothing.
+// Returns a name and its meaning as such a line, or an empty text unless the name begins with
+// `word`.
 std::string completionLine(const std::string& word, const std::string& name,
                            const std::string& meaning = "");
 

@@ -46,7 +46,8 @@ TypedOption splitOption(const std::string& word) {
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-// A forgotten value is more likely than one that begins as an option; --json=--odd says it is one.
+// Returns true if the word is more likely an option behind a forgotten value than a value. A value
+// that looks so can be given as --json=--odd.
 bool looksLikeOption(const std::string& word, const OptionList& list) {
   if (word.size() > 2 && word.starts_with("--")) return true;
   return std::ranges::any_of(list.entries, [&](const OptionList::Entry& entry) {
@@ -54,7 +55,8 @@ bool looksLikeOption(const std::string& word, const OptionList& list) {
   });
 }
 
-// Sets every value; stops at a call for help, which is the name of its option.
+// Sets the values of all options and operands. At a request for help it stops and returns that
+// word; otherwise it returns an empty text.
 std::string takeWords(const std::vector<std::string>& words, const OptionList& list,
                       const std::string& command) {
   std::vector<std::string> operands;

@@ -1,4 +1,4 @@
-// From the words of a command line to options.
+// Parses the words of a command line into options.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct CommonOptions {
   std::string cameraFile;               // file that --camera names; empty: none
   std::optional<double> azimuth, zoom;  // view of a model's camera
   bool ground = false;                  // a shadow below a model
-  std::optional<double> maxMemoryGb;    // empty: defaultMaxMemory()
+  std::optional<double> maxMemoryGb;    // none: defaultMaxMemory()
   bool quiet = false;
   bool warns = true;  // false: whoever opens a scene reports its warnings
   std::string progress = "auto";
@@ -31,11 +31,11 @@ struct CommonOptions {
 void listCommonOptions(OptionList& list, CommonOptions& common);
 void listReportOptions(OptionList& list, CommonOptions& common);
 
-// The options of a picture of the scene: those that were given, else those that the scene states.
-// An automatic exposure is still to be measured (inspect/auto_exposure.h).
+// Returns the options of a picture of the scene: those that were given, else those that the scene
+// states. An automatic exposure is still to be measured (inspect/auto_exposure.h).
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
-// The options of frames whose cost or accuracy is measured: without those of a scene file, so that
-// figures of different scenes, and of one option alone, can be compared.
+// Returns the options of frames whose cost or accuracy is measured. Those of a scene file are left
+// out, so that figures of different scenes, and of one option alone, can be compared.
 RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common);
 
 // Throws Error(usage) if a file that is to be written is also read, or is written twice, as

@@ -23,10 +23,11 @@ char childsFile[4096];
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "they are used by a signal handler");
 
-// The main thread opens WriteScopes and is also the one that the kernel prefers for signals to the
-// process, so that nothing can slip in between the test and the exit. Outside a scope no temporary
-// file exists, and a long render is not waited for. Other threads may close a scope: either they
-// see that there was an interruption, or it sees that the scope is closed.
+// Ends the program. The main thread opens WriteScopes and is also the one that the kernel prefers
+// for signals to the process, so no scope can be opened between the test and the exit. Outside a
+// scope no temporary file exists, and a long render is not waited for. Other threads may close a
+// scope: either they see that there was an interruption, or the handler sees that the scope is
+// closed.
 [[noreturn]] void end() {
   if (child != 0) kill(child, SIGKILL);
   if (hasFile) unlink(childsFile);
@@ -59,7 +60,7 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
 
   try {
     const int status = body();
-    // The flag tells of earlier writes, which did not fit into the buffer.
+    // ferror() tells of earlier writes that failed, when the buffer was full.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (lost) return fail(name, ExitStatus::io, "cannot write the result to standard output");
     return status;

@@ -1,5 +1,5 @@
-// The frame of main(): errors become exit statuses, and an interruption (Control-C, SIGTERM) ends
-// the program at once with status 130 and leaves no half-written file.
+// What every main() does: errors become exit statuses, and an interruption (Control-C, SIGTERM)
+// ends the program at once with status 130 and leaves no half-written file.
 #pragma once
 
 #include <functional>
@@ -34,8 +34,8 @@ std::vector<std::string> wordsOf(int argc, char** argv);  // without the program
 
 inline constexpr int kInterruptedStatus = 130;
 
-// While one is alive an interruption waits: files are being written. The destructor catches up. To
-// be made on the main thread; any may destroy it.
+// While a WriteScope is alive, files are being written and an interruption waits; the destructor of
+// the last one carries it out. Create it on the main thread; any thread may destroy it.
 class WriteScope {
  public:
   WriteScope();
@@ -44,8 +44,8 @@ class WriteScope {
   WriteScope& operator=(const WriteScope&) = delete;
 };
 
-// While it is alive an interruption removes the file, and ends the process that writes it, too. One
-// at a time.
+// While a ChildScope is alive, an interruption also removes the file and kills the process that
+// writes it. There is at most one at a time.
 class ChildScope {
  public:
   explicit ChildScope(const std::string& file);

@@ -33,7 +33,8 @@ class ProgressBar : public Progress {
 
   void report(const std::string& phase, double fraction) override {
     const std::lock_guard lock(mutex_);
-    // Several workers may report out of order; other work begins far below.
+    // Several workers may report out of order. A fraction far below the last one means that other
+    // work has begun.
     if (!(fraction >= fraction_ / 2)) {
       sinceBegun_ = Stopwatch();
       fraction_ = 0;

@@ -10,18 +10,18 @@
 
 namespace whit::cli {
 
-// Prints what was repaired, one line each.
+// Prints the warnings, one line each.
 void printWarnings(const Warnings& warnings);
 
-// Null when nobody would see it: not wanted, or standard error is no terminal. The bar removes
-// itself when destroyed.
+// Returns null if the bar is not wanted or standard error is no terminal. The bar removes itself
+// when it is destroyed.
 std::unique_ptr<Progress> makeProgressBar(const CommonOptions& common);
 
-// The text of the bar, at most 60 columns and what timeLeft() says:
+// Returns the text of the bar, at most 60 columns, without timeLeft():
 // "[#####---------------]  25 % decoding textures".
 std::string progressText(const std::string& phase, double fraction);
-// ", 1:05 left" after `ms` for this fraction of the work, if the rest takes as long for its part;
-// nothing in the first second, in which nobody waits, and while nothing is done.
+// Returns ", 1:05 left", the time for the rest of the work if this fraction of it took `ms`. The
+// text is empty in the first second, in which nobody waits, and while nothing is done.
 std::string timeLeft(double ms, double fraction);
 
 }  // namespace whit::cli

@@ -51,7 +51,7 @@ double linearToSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-std::array<float, 256> makeLinearOfCode() {
+std::array<float, 256> makeLinearOfCodes() {
   std::array<float, 256> table{};
   for (int code = 0; code < 256; ++code) {
     entryOf(table, code) = static_cast<float>(srgbToLinear(code / 255.0));

@@ -15,12 +15,13 @@ double srgbToLinear(double code);
 // And back; `linear` in [0, 1].
 double linearToSrgb(double linear);
 
-// Linear light of an 8-bit code, rounded to float.
-std::array<float, 256> makeLinearOfCode();
-inline float linearOfCode(int code) {
-  static const std::array<float, 256> table = makeLinearOfCode();
-  return entryOf(table, code);
+// Linear light of each 8-bit code, rounded to float.
+std::array<float, 256> makeLinearOfCodes();
+inline const std::array<float, 256>& linearOfCodes() {
+  static const std::array<float, 256> table = makeLinearOfCodes();
+  return table;
 }
+inline float linearOfCode(int code) { return entryOf(linearOfCodes(), code); }
 
 // round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.
 int srgbCode(double linear);

@@ -1,6 +1,6 @@
 // The effects the renderer knows, one bit each. A scene calls for some of them; a frame's plan
-// leaves out the rest. Adding one: a line here, the rule in bake/effects_of_scene.cpp that turns
-// it on, and its step or feature in render/plan.cpp.
+// leaves out the rest. The way to add one is in src/README.md, "Adding an effect, an option, a
+// member".
 #pragma once
 
 #include <array>

@@ -53,7 +53,8 @@ std::vector<std::string> sceneOptionNames();
 void applySceneOptions(const std::map<std::string, std::string>& stated,
                        std::set<std::string> given, RenderOptions& options);
 
-// The only words that the option accepts; empty if it accepts others.
+// The words between the bars of OptionSpec::words, with those in capitals that stand for a value;
+// empty if there are no bars.
 std::vector<std::string> choicesOf(const OptionSpec& spec);
 // The index of `text` among them; throws Error(usage) that names the nearest one.
 int parseChoice(const OptionSpec& spec, const std::string& text);

@@ -28,11 +28,9 @@ enum class Rebuild {
   scene,  // it is loaded again, by the caller of the renderer
 };
 
-// The tab of the viewer's panel that has a control for it.
-enum class Tab { none, knobs, picture };
-
-// Everything about an option but its value. Words with '|' between them are the only ones that are
-// accepted; for an enumeration they stand in the order of its enumerators. A flag has no words.
+// Everything about an option but its value. Words with '|' between them are choices. A word in
+// capitals among them (EV, COLOR) stands for a value; all others are accepted as they are. For an
+// enumeration they stand in the order of its enumerators. A flag has no words.
 struct OptionSpec {
   std::string_view name = {}, words = {};
   double low = std::numeric_limits<double>::lowest();
@@ -42,7 +40,7 @@ struct OptionSpec {
   // False for options that share out the work: the picture does not depend on them by design.
   bool changesPicture = true;
   bool inScenes = true;  // a scene file may state it, if it changes the picture of a frame
-  Tab tab = Tab::knobs;
+  bool inPanel = true;   // the viewer's panel has a control for it
   // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
   // other values against it, and not at all if this is empty.
   std::string_view cheapest = {};
@@ -150,39 +148,39 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "quality", .words = "good|standard|reference",
               .help = "preset of other options, see below; good: a picture to show (default: "
                       "standard, one sample per pixel)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.quality},
       Option{{.name = "size", .words = "WxH",
               .help = "image size in pixels (default: the scene's, else 480x300)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.size},
 
       // These options choose the view.
       Option{{.name = "camera", .words = "NAME",
               .help = "one of the scene's cameras (default: the first)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.camera},
       Option{{.name = "eye", .words = "x,y,z", .help = "position of the camera",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.eye},
       Option{{.name = "at", .words = "x,y,z", .help = "point that the camera looks at",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.at},
       Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image; or y, z or x: the axis that is up in an OBJ "
                       "or PLY model",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.up},
       Option{{.name = "fov", .words = "DEG", .low = kLeastFov, .high = kLargestFov,
               .help = "vertical field of view in degrees",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.fov},
       Option{{.name = "ortho", .words = "HEIGHT", .low = 0, .high = 1e18,
               .help = "orthographic camera: height of its view in the scene (0: perspective)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .inPanel = false},
              o.ortho},
       Option{{.name = "crop", .words = "x0,y0,x1,y1",
               .help = "pixels that are rendered; they become the EXR's data window",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::nothing, .inPanel = false, .everyday = true},
              o.crop},
 
       // These options choose the samples of a pixel.
@@ -236,7 +234,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "reflected, refracted and sampled rays of a sample; a sample that would have "
                       "more is traced with fewer: of the rays of a surface one is followed by "
                       "chance and weighted to keep the mean; 0: no bound",
-              .tab = Tab::none},
+              .inPanel = false},
              o.maxRays},
 
       // These options approximate light and surfaces.
@@ -248,8 +246,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
-              .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
-                      "off",
+              .help = "ambient occlusion, where the scene's ambient light has a radius of it: rays "
+                      "per hit; 0: off",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true},
@@ -288,7 +286,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       // These options choose how the work is done.
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
-              .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
+              .rebuilds = Rebuild::workers, .changesPicture = false, .inPanel = false, .everyday = true},
              o.threads},
       Option{{.name = "packet", .words = "auto|1|4|8|16",
               .help = "rays per packet (auto: widest the CPU runs natively)",
@@ -296,11 +294,11 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.packet},
       Option{{.name = "simd", .words = "auto|avx3|avx2|sse4|sse2|neon|scalar",
               .help = "SIMD target of the kernels and of Embree",
-              .rebuilds = Rebuild::acceleration, .tab = Tab::none},
+              .rebuilds = Rebuild::acceleration, .inPanel = false},
              o.simd},
       Option{{.name = "mode", .words = "packets|reference",
               .help = "vector pipeline in float, or the scalar recursive reference in double",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .inPanel = false},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
               .help = "run each stage over one tile at a time, or over the whole frame",
@@ -323,32 +321,32 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",
-              .rebuilds = Rebuild::scene, .tab = Tab::none},
+              .rebuilds = Rebuild::scene, .inPanel = false},
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
-              .help = "kernels for the effects that the scene uses, or for every effect",
+              .help = "plan the frame for the effects that the scene uses, or for every effect",
               .rebuilds = Rebuild::tables, .inScenes = false,
               .cheapest = "auto"},
              o.effects},
       Option{{.name = "disable", .words = "a,b",
               .help = "effects to leave out, by the names that whit info prints",
-              .rebuilds = Rebuild::tables, .tab = Tab::none},
+              .rebuilds = Rebuild::tables, .inPanel = false},
              o.disable},
 
       // These options turn radiance into codes.
       Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
               .help = "exposure of 8-bit output in stops; auto: measured in the view (default: 0, "
                       "of models without a scene file auto)",
-              .tab = Tab::picture, .everyday = true},
+              .everyday = true},
              o.exposure},
       Option{{.name = "tonemap", .words = "none|filmic|reinhard",
               .help = "tone curve of 8-bit output",
-              .tab = Tab::picture, .everyday = true},
+              .everyday = true},
              o.toneCurve},
       Option{{.name = "background", .words = "sky|transparent|COLOR",
               .help = "what is behind all surfaces: the sky; nothing, as alpha in PNG and EXR; or "
                       "a color, as ff8000, white or black, which an EXR leaves transparent",
-              .tab = Tab::none, .everyday = true},
+              .inPanel = false, .everyday = true},
              o.background},
 
       // These options choose the sizes of the work.
@@ -369,12 +367,12 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "before; alpha, the share that surfaces cover; and error, the standard error "
                       "of the mean of the samples and the share of light that depth and cutoff "
                       "ended",
-              .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
+              .rebuilds = Rebuild::frame, .changesPicture = false, .inPanel = false,
               .everyday = true},
              o.channels},
       Option{{.name = "strict",
               .help = "anything that would be repaired and counted is an error",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .inPanel = false},
              o.strict});
   // clang-format on
 }

@@ -19,8 +19,9 @@ namespace whit {
 // Treatment of denormal numbers by the workers.
 enum class Denormals { kept, flushed };
 
-// Two barriers a run; nobody spins for ever, so a stolen core costs its share and no more. In a
-// child that was forked between two runs, the next run starts new workers.
+// A run has two barriers. Threads that wait at one sleep rather than spin on, so that a core taken
+// by another program costs no more than its share. In a child that was forked between two runs, the
+// next run starts new workers.
 class WorkerPool {
  public:
   // `workers` including the calling thread; at least 1. Throws Error(limit) where the system has no
@@ -71,8 +72,8 @@ class WorkerPool {
 };
 
 // Calls task(i, worker) once for every i below `count`, in this order as workers become free, on
-// up to `threads` threads; worker is below that. What is thrown for one of them ends the loop, and
-// the first of it reaches the caller. Denormals are kept. Throws as WorkerPool does.
+// up to `threads` threads; worker is below that. An exception ends the loop; the first one is
+// rethrown to the caller. Denormals are kept. Throws as WorkerPool does.
 void parallelFor(int threads, std::size_t count,
                  const std::function<void(std::size_t i, int worker)>& task);
 

@@ -16,6 +16,40 @@
 
 namespace whit {
 
+namespace {
+
+// Returns the settings of `after` that are new or were set again, in their order; none if a setting
+// of `before` was removed.
+std::optional<std::vector<SceneSetting>> touchedSettings(const std::vector<std::string>& before,
+                                                         const std::vector<std::string>& after) {
+  std::vector<SceneSetting> touched;
+  std::vector<std::string> grown = before;  // with the touched ones added
+  auto rest = before.begin();
+  for (const std::string& setting : after) {
+    const auto known = std::find(rest, before.end(), setting);
+    if (known != before.end()) {
+      rest = known + 1;
+      continue;
+    }
+
+    // Settings that are new or were set again stand at the end of the list, so none of the settings
+    // that follow is an old one.
+    rest = before.end();
+    touched.push_back(parseSceneSetting(setting));
+    addSceneSetting(setting, grown);
+  }
+
+  if (grown != after) return std::nullopt;
+  return touched;
+}
+
+bool touches(const std::vector<SceneSetting>& settings, const char* section) {
+  return std::ranges::any_of(
+      settings, [&](const SceneSetting& setting) { return setting.tokens.front() == section; });
+}
+
+}  // namespace
+
 int threadsOf(const RenderOptions& options) {
   return options.threads > 0 ? options.threads : usableThreads();
 }
@@ -71,28 +105,9 @@ void Engine::edit(const std::string& setting, Progress* progress) {
 }
 
 void Engine::setSettings(const LoadOptions& load, Progress* progress) {
-  // Compares the settings with the present ones: `touched` are those that are new or were set
-  // again, and `grown` is the list that results if they are added to the present ones.
-  std::vector<SceneSetting> touched;
-  const std::vector<std::string>& before = opened_->load.settings;
-  std::vector<std::string> grown = before;
-  auto rest = before.begin();
-  for (const std::string& setting : load.settings) {
-    const auto known = std::find(rest, before.end(), setting);
-    if (known != before.end()) {
-      rest = known + 1;
-      continue;
-    }
-
-    // Settings that are new or were set again stand at the end of the list, so none of the settings
-    // that follow is an old one.
-    rest = before.end();
-    touched.push_back(parseSceneSetting(setting));
-    addSceneSetting(setting, grown);
-  }
-
   // If settings were removed, the file's own values count again, and only the reader knows them.
-  if (grown != load.settings) {
+  const auto touched = touchedSettings(opened_->load.settings, load.settings);
+  if (!touched) {
     readAgain(opened_->source, load, progress);
     return;
   }
@@ -101,12 +116,12 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
   // that the scene does not have.
   std::optional<JsonDocument> document = std::exchange(document_, std::nullopt);
   if (!document) document = readSceneDocument();
-  for (const SceneSetting& setting : touched) applySceneSetting(setting, *document);
+  for (const SceneSetting& setting : *touched) applySceneSetting(setting, *document);
 
   queries_.reset();  // ray queries hold the masks of the materials
   const std::vector<std::uint8_t> media = scene().mediumOfMaterial;
   Warnings warnings(opened_->strict);
-  if (!editScene(touched, load, *document, warnings, opened_->scene)) {
+  if (!editScene(*touched, load, *document, warnings, opened_->scene)) {
     readAgain(opened_->source, load, progress);
     return;
   }
@@ -123,16 +138,18 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
   opened_->load.sky = load.sky;
   optionsChanged_ = true;  // an automatic exposure has to be chosen again
 
-  const auto touches = [&](const char* section) {
-    return std::ranges::any_of(
-        touched, [&](const SceneSetting& setting) { return setting.tokens.front() == section; });
-  };
   // Edits put lights that move where they start.
-  moved_ |= touches("lights") && scene().motion.ofLights();
+  moved_ |= touches(*touched, "lights") && scene().motion.ofLights();
+
+  // The media around a camera depend on the cameras and on the surfaces that bound a medium.
+  updateRenderer(touches(*touched, "cameras") || media != scene().mediumOfMaterial, loaded,
+                 progress);
+}
+
+void Engine::updateRenderer(bool camerasChanged, const LoadOptions& loaded, Progress* progress) {
   if (!renderer_) return;
   try {
-    // The media around a camera depend on the cameras and on the surfaces that bound a medium.
-    if (touches("cameras") || media != scene().mediumOfMaterial) renderer_->camerasChanged();
+    if (camerasChanged) renderer_->camerasChanged();
     renderer_->shadingChanged();
   } catch (...) {
     renderer_.reset();

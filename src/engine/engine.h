@@ -109,6 +109,9 @@ class Engine {
  private:
   void readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress);
   JsonDocument readSceneDocument() const;
+  // Makes the renderer follow an edit of the scene. If that fails, the scene is read again with the
+  // settings `loaded` that it had before, and the error is thrown.
+  void updateRenderer(bool camerasChanged, const LoadOptions& loaded, Progress* progress);
   void forgetRenderer();
 
   std::shared_ptr<OpenScene> opened_;

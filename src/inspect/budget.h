@@ -44,7 +44,7 @@ struct Receipt {
   double bias = 0;  // the part of the error that more samples would not take away
   // The upper bound is infinite where the error is not known: then it is what the samples tell.
   double error = 0, low = 0, high = 0;
-  // At most so much error is of paths that depth and cutoff ended; not measured with --adaptive.
+  // Upper bound on the error from paths that depth and cutoff ended; not measured with --adaptive.
   std::optional<double> ended;
   std::string note;  // empty, or why budget or target are not met or the error is not known
 

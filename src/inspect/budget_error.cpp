@@ -29,7 +29,8 @@ void leaveUnknown(Receipt& r, double estimate) {
   r.note += "the error is not known: few samples decide most of what was measured";
 }
 
-// The root mean squares of radiance over the pixels that the channel `error` is pooled over.
+// Returns the root mean squares of radiance over the colors of the pixels that the channel `error`
+// is pooled over.
 std::vector<double> pooledRadiance(const Film& film) {
   // poolErrors() works on the channel `error`, so the radiance takes its place there.
   Film means;
@@ -39,7 +40,7 @@ std::vector<double> pooledRadiance(const Film& film) {
 
   for (const auto i : indices(film.image.pixels)) {
     const Rgb& pixel = film.image.pixels[i];
-    values[2 * i] = (pixel.x + pixel.y + pixel.z) / 3;
+    values[2 * i] = std::sqrt(dot(pixel, pixel) / 3);
   }
   poolErrors(means);
 

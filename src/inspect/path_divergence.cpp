@@ -14,9 +14,9 @@ namespace {
 
 // Sums of mixed numbers tell multisets apart. 0 is no event, because it mixes to 0.
 std::uint64_t hitEvent(std::uint32_t triangle, std::uint32_t instance) {
-  return mixed(orderOf({triangle, instance}) + 3);
+  return mixed64(orderOf({triangle, instance}) + 3);
 }
-std::uint64_t shadowEvent(bool visible) { return mixed(std::uint64_t{visible ? 1u : 2u}); }
+std::uint64_t shadowEvent(bool visible) { return mixed64(std::uint64_t{visible ? 1u : 2u}); }
 
 // A pixel's signature: the sum of its events, whatever their order. Observers of workers that share
 // the tiles write to the same signatures, one a pixel of the window.
@@ -32,7 +32,7 @@ class SignatureObserver : public StageObserver {
       for (const auto i : indices(chunk.n)) {
         if (chunk.hits.triangle[i] == kMiss) continue;
         const std::uint32_t instance =
-            chunk.has(Feature::instances) ? chunk.hits.instance[i] : kMiss;
+            chunk.has(Feature::instances) ? chunk.hits.instance[i] : kNoInstance;
         at(tracker_.pixel(chunk, i)) += hitEvent(chunk.hits.triangle[i], instance);
       }
     } else if (stage == Stage::checkShadows) {
@@ -68,7 +68,7 @@ class RecordingIntersector : public EmbreeIntersector, public reference::PathObs
 }  // namespace
 
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
-  const CameraFrame frame = renderer.lookFrom(camera, film);
+  const CameraFrame frame = renderer.prepareView(camera, film);
   const reference::Settings settings = referenceSettings(renderer);
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;

@@ -340,7 +340,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, referenceSettings(renderer),
                                  intersector);
-  CameraFrame frame = renderer.lookFrom(camera, film);
+  CameraFrame frame = renderer.prepareView(camera, film);
   if (samples.size() == 1) frame.footprint = 1;  // adaptive sampling took the center alone
 
   reference::RayCounts counts;

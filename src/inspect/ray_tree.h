@@ -32,7 +32,8 @@ struct RayNode {
   Vec3d origin, direction;
   RgbD weight{1, 1, 1};     // what it brings back, times this, is part of the parent's radiance
   std::uint32_t media = 0;  // around it, a byte each (surfaces/initial_media.h)
-  std::uint32_t triangle = kMiss, instance = kMiss;  // kMiss: it left the scene
+  std::uint32_t triangle = kMiss;  // kMiss: it left the scene
+  std::uint32_t instance = kNoInstance;
   std::uint32_t material = kMiss;
   double u = 0, v = 0;  // barycentric coordinates of the hit
   double distance = kInfinity;

@@ -19,7 +19,7 @@ reference::Settings referenceSettings(const Renderer& renderer) {
 FrameStats renderReference(Renderer& renderer, const Camera& camera, Film& film,
                            Progress* progress) {
   const Stopwatch stopwatch;
-  renderer.lookFrom(camera, film);
+  renderer.prepareView(camera, film);
 
   const Scene& scene = renderer.scene();
   const RenderOptions& options = renderer.options();

@@ -35,8 +35,9 @@ namespace {
 constexpr double kRoundedLimit = 4;    // a few products and sums
 constexpr double kDirectionLimit = 4;  // a normalized sum of three products
 constexpr double kPositionLimit = 4;   // three products, against the largest corner
-// An ulp of the normal along the edges, of which the offset counts 16, against the 2^-6 that it
-// counts of all; times two for what the normal and the edges are rounded themselves.
+// The offset (surfaces/surface_point.cpp) is 16 ulps of the edges along the normal plus 2^-6 ulp of
+// everything, and more. One ulp of the normal moves the first term by as much as 16 / 2^-6 = 1024
+// ulps of the second; the rounding of normal and edges doubles that.
 constexpr double kOffsetLimit = 2048;
 constexpr double kShadowOffsetLimit = 8;  // three products of two positions' difference
 constexpr double kNormalLimit = 4;        // cross product by differences of products, normalized
@@ -72,8 +73,8 @@ struct RowContext {
   const Row& scalar;
 };
 
-// Columns that are compared as one, and the magnitude that its ulps are at least those of: the rule
-// gives 0 where the values' own decides, kNotHere where double and float need not agree at all.
+// Columns that are compared together. Differences are counted in ulps of the values' own magnitude
+// or of scale(), whichever is larger; kNotHere means that the row is not compared.
 constexpr double kNotHere = -1;
 template <typename Row>
 struct Quantity {
@@ -143,7 +144,7 @@ std::optional<double> alongRay(const RowContext<SurfelRow>& p) {
   const auto sphere = sphereAt(p);
   const Vec3d edges =
       sphere ? axesOf(*sphere) * double{kSphereSpan} : abs(c[1] - c[0]) + abs(c[2] - c[0]);
-  const bool placed = candidateOf(p.chunk, p.slot).instance != kNoHit;
+  const bool placed = candidateOf(p.chunk, p.slot).instance != kNoInstance;
   const bool shared = reference::alsoCrossedAt(p.chunk, p.slot) >= kSharesPlace;
   if (placed || shared || (!sphere && bySliver(p) > 0x1p11) ||
       !(8 * t < edges.x + edges.y + edges.z))
@@ -225,7 +226,7 @@ std::vector<std::string> rgb(const std::string& s) { return {s + "R", s + "G", s
 // The quantities of each kind of row.
 std::vector<Quantity<RayRow>> quantitiesOf(const RayRow*) {
   using enum Stage;
-  // And what the cutoff counts of it.
+  // The throughput is the weight as the cutoff counts it.
   const std::vector<std::string> weight{"weightR", "weightG", "weightB", "throughput"};
   return {
       {generateRays, "origin", xyz("org"), kPositionLimit, byEye},
@@ -361,7 +362,7 @@ class StageComparer : public StageObserver {
         intersector_(renderer.accel()),
         maps_(trilinear(renderer) ? MipMaps(renderer.scene()) : MipMaps()),
         world_{renderer.scene(), renderer.plan().effects, trilinear(renderer) ? &maps_ : nullptr,
-               renderer.lookFrom(camera, film), intersector_} {}
+               renderer.prepareView(camera, film), intersector_} {}
 
   void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);

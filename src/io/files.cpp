@@ -65,7 +65,8 @@ std::optional<fs::path> spelledOnDisk(const fs::path& folder, const fs::path& na
   return found;
 }
 
-// The program that is running, as it was called where there is no /proc, as in many a chroot.
+// Returns the file of the running program. Without /proc, as in many a chroot, it is taken from the
+// name by which the program was called.
 fs::path programFile() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -91,7 +92,8 @@ std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
   return folders;
 }
 
-// The names of files that end so, as findScene() takes them: those of models keep the ending.
+// Returns the names of the files with these extensions, as findScene() takes them: names of models
+// keep the extension.
 std::vector<std::string> shippedNames(const std::vector<fs::path>& folders,
                                       const std::vector<std::string>& extensions) {
   std::vector<std::string> names;

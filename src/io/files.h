@@ -72,14 +72,14 @@ std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxByt
 // Reads at most `bytes` bytes of the file.
 std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);
 
-// The beginning of a text that an error quotes.
+// Returns the beginning of a text, for errors that quote it.
 inline std::string excerpt(const std::string& text) {
   constexpr std::size_t kShown = 60;
   return text.size() > kShown ? text.substr(0, kShown) + "..." : text;
 }
 
-// Calls `read`, which opens a file that the place `where` names ("": the user): an Error(io) names
-// that place as well.
+// Calls `read`, which opens a file that is named at the place `where` (empty: by the user). An
+// Error(io) then names that place as well.
 template <typename Read>
 auto readNamedAt(const std::string& where, const Read& read) {
   try {

@@ -27,13 +27,14 @@ constexpr int kSchemaVersion = 1;
 
 // The usual level of the supplied light, which the studio's brightness suits.
 constexpr double kUsualLevel = 0.5;
-// The radius of ambient occlusion over the model's.
+// The radius of ambient occlusion, in radii of the model.
 constexpr float kOcclusion = 0.3f;
 constexpr double kDimmest = 1.0e-6, kBrightest = 1.0e6;
 // The color behind models, lighter than most of them and darker than white ones.
 constexpr const char* kModelBackground = "c8c8c8";
 
-// White surfaces that face the light from `distance` are seen as `level`.
+// Returns a light under which white surfaces that face it from `distance` have the radiance
+// `level`.
 Light supplied(const char* name, const Vec3f& position, float distance, float level, float size) {
   Light light;
   light.name = name;
@@ -43,20 +44,22 @@ Light supplied(const char* name, const Vec3f& position, float distance, float le
   return light;
 }
 
-// A light above, beside and in front of the model, and a weak one from the other side, without
-// which rough metals would be black there: ambient light is for what is diffuse. In a room a lamp
-// below its ceiling, as bright as the first light about half across the room.
+// Adds a light above, beside and in front of the model, and a weak one from the other side: without
+// it rough metals would be black there, because only diffuse surfaces reflect ambient light. A room
+// gets one lamp below its ceiling instead, as bright about half across the room as the first light.
 void supplyLights(const ModelView& view, SceneDescription& scene) {
   constexpr float kFill = 0.25f, kAcross = 0.4f;
   const float size = std::max(static_cast<float>(2 * view.radius), 1e-6f);
   const Vec3f center(view.center);
   const Vec3f key = Vec3f(0.6f, 1.0f, 0.8f) * size, fill = Vec3f(-1.0f, -0.2f, 0.9f) * size;
+
   if (view.inside) {
     scene.lights = {supplied("supplied", Vec3f(view.ceiling), kAcross * size, 1, size)};
   } else {
     scene.lights = {supplied("supplied", center + key, length(key), 1, size),
                     supplied("supplied fill", center + fill, length(fill), kFill, size)};
   }
+
   scene.ambient.up = Rgb(0.25f);
   scene.ambient.down = Rgb(0.1f);
 }
@@ -64,7 +67,7 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
 // Members of a scene that concern the view of a model.
 constexpr std::array<const char*, 4> kViewMembers{"viewpoint", "azimuth", "zoom", "ground"};
 
-// Reads what a supplied camera is asked for.
+// Reads what is asked of a supplied camera.
 void readViewMembers(JsonObject& members, SceneDescription& scene) {
   constexpr double kWholeTurn = 360, kLargestZoom = 100;
   if (const JsonValue view = members.find("viewpoint")) {
@@ -79,7 +82,7 @@ void readViewMembers(JsonObject& members, SceneDescription& scene) {
   }
 }
 
-// A supplied camera has to see the whole animation that is played.
+// Returns the view for a supplied camera, which has to see the whole animation that is played.
 ModelView viewOfAnimation(const SceneContext& context) {
   const SceneDescription& scene = context.scene;
   const std::string& played = context.instant.animation;
@@ -99,8 +102,8 @@ void addFirstCamera(Camera camera, SceneDescription& scene) {
   for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
 }
 
-// The view of the model is the first camera where the file has none, where another side was asked
-// for, and where the file's first camera sees nothing.
+// Makes the view of the model the first camera if the file has no camera, if another side was asked
+// for, or if the file's first camera sees nothing.
 void supplyCamera(const ModelView& view, SceneContext& context) {
   SceneDescription& scene = context.scene;
   if (!(view.radius > 0)) return;
@@ -113,22 +116,25 @@ void supplyCamera(const ModelView& view, SceneContext& context) {
         "(--camera NAME chooses a camera of the file)",
         scene.name + ": " + first.name);
   }
+
   if (scene.viewpoint == Viewpoint::automatic && view.inside) {
     context.warnings.note(
         "model taken for a room is seen from inside (--viewpoint outside shows it "
         "from outside)",
         scene.name);
   }
+
   addFirstCamera(view.camera, scene);
 }
 
-// Completes a model whose own lights and cameras are there. The sky is the studio, unless there is
-// one, or none or another was asked for, as bright as it suits the lights. A supplied camera, and
-// lights with it, hold all of the animation that is played.
+// Completes a model whose own lights and cameras have been read. The sky is the studio, as bright
+// as suits the lights, unless there is a sky already, or another one or none was asked for. A
+// supplied camera, and supplied lights, suit all of the animation that is played.
 void supplyView(JsonObject& members, SceneContext& context) {
   SceneDescription& scene = context.scene;
   readViewMembers(members, scene);
   const ModelView view = viewOfAnimation(context);
+
   scene.isModel = true;
   scene.options.emplace("exposure", "auto");
   scene.options.emplace("tonemap", "filmic");
@@ -143,6 +149,7 @@ void supplyView(JsonObject& members, SceneContext& context) {
   } else if (const double level = lightLevel(scene); level > 0 && suppliesSky) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
+
   supplyCamera(view, context);
   context.hasGround = members.find("ground").flagOr(false) && !view.inside;
 }
@@ -210,7 +217,7 @@ void readCameraSettings(const LoadOptions& options, JsonDocument document,
   readCameras(file, {}, scene);
 }
 
-// The scene's own values, then those that were given with its name.
+// Reads the values of parameters: the scene's own ones, and then those given with its name.
 void readParameters(JsonObject& file, const std::map<std::string, double>& given,
                     JsonDocument& document) {
   std::vector<std::string> names;
@@ -220,6 +227,7 @@ void readParameters(JsonObject& file, const std::map<std::string, double>& given
     names.push_back(name);
   }
   document.parameters = std::move(values);
+
   for (const auto& [name, value] : given) {
     const auto known = document.parameters.find(name);
     if (known == document.parameters.end()) {
@@ -240,22 +248,23 @@ void addPathCamera(SceneDescription& scene) {
   scene.motion.cameras.push_back({0, kNoNode, scene.cameras.front()});
 }
 
-bool has(const Rig& rig, const std::string& name) {
+bool hasNode(const Rig& rig, const std::string& name) {
   return std::ranges::any_of(rig,
                              [&](const RigNode& n) { return !n.name.empty() && n.name == name; });
 }
 
 void requireMovable(const std::string& pointer, const SceneDescription& scene) {
-  if (has(scene.motion.rig, pointer)) return;
+  if (hasNode(scene.motion.rig, pointer)) return;
   for (const Object& object : scene.objects) {
     for (const Mesh& mesh : object.meshes) {
       if (!mesh.deformation || !mesh.deformation->hasSkin()) continue;
-      if (has(*mesh.deformation->skeleton, pointer)) return;
+      if (hasNode(*mesh.deformation->skeleton, pointer)) return;
     }
   }
-  throwUsage("\"" + pointer + "\" is not in " + scene.name +
-             ", or not what can be moved: an item, a camera or a light of a scene file, or a node "
-             "of a glTF model that holds something");
+  throwUsage(
+      "\"" + pointer + "\" is not in " + scene.name +
+      ", or cannot be moved: only items, cameras and lights of scene files can, and nodes of "
+      "glTF models that hold something");
 }
 
 // Sets the time at which the scene is looked at. Throws if the animation or an item that is to be
@@ -266,10 +275,12 @@ void applyInstant(const Instant& instant, SceneDescription& scene) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));
   }
+
   scene.motion.seconds = instant.seconds.value_or(0);
   if (instant.seconds && scene.cameraPath.empty() && names.empty()) {
     throwUsage("--time: nothing moves in " + scene.name);
   }
+
   if (instant.fliesPath() && !scene.cameraPath.empty()) addPathCamera(scene);
   for (const std::string& pointer : instant.movable) requireMovable(pointer, scene);
 }
@@ -292,16 +303,18 @@ SceneDescription finish(const LoadOptions& options, std::optional<double> fromSk
   SceneDescription& scene = context.scene;
   context.textures.finish(scene);
   if (fromSky) scene.ambient = ambientFromSky(scene.sky, *fromSky, scene.ambient);
-  // The studio is there for light and reflections. What is behind models has one tone, however the
-  // picture is exposed.
+
+  // The studio is there for light and reflections. The background of models has one tone, however
+  // the picture is exposed.
   const bool isInStudio = scene.sky.kind == Sky::Kind::image && scene.sky.name == kStudio;
   if (scene.isModel && isInStudio) scene.options.emplace("background", kModelBackground);
+
   replaceSpheres(options.sphereSegments, context);
   if (context.hasGround) addGroundShadow(scene);
   return std::move(scene);
 }
 
-// Returns the document with the settings and parameters.
+// Returns the document with the settings and parameters in their places.
 JsonDocument documentOf(const std::string& name, Json root,
                         const std::map<std::string, double>& parameters,
                         const LoadOptions& options) {
@@ -318,7 +331,7 @@ JsonDocument documentOf(const fs::path& path, const SceneName& name, const LoadO
   return documentOf(path.string(), std::move(root), name.parameters, options);
 }
 
-// Supplied cameras fit the picture that is asked for.
+// Takes over the size of the picture that is asked for, which supplied cameras fit.
 void takeSize(const LoadOptions& options, SceneDescription& scene) {
   if (!options.size) return;
   scene.width = options.size->width;
@@ -365,7 +378,8 @@ void noteUnusedFovs(JsonObject& file, SceneContext& context) {
   }
 }
 
-// Models and views have cameras of their own, and the camera "path" flies the scene's path.
+// Throws if the camera that is asked for cannot exist. Models and views have more cameras than
+// those of the file, and the camera "path" flies the scene's path.
 void requireCamera(const std::string& camera, JsonObject& file, const SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.cameras);
   const bool areAll = !names.empty() && !file.has("view") && camera != "path";
@@ -377,12 +391,15 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   JsonObject file{JsonValue(document)};
   file.need("whit");
   file.find("parameters");
+
   readCameras(file, options.instant, context.scene);
   noteUnusedFovs(file, context);
   requireCamera(options.camera, file, context.scene);
   if (context.scene.cameras.empty()) takeSize(options, context.scene);
+
   readLights(file, options.instant, context.scene);
   std::optional<double> fromSky = readSurroundings(file, context);
+
   MaterialReader materials(file, context);
   readItems(file, context, materials);
   materials.checkUnused();
@@ -391,10 +408,12 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
                   "variants are those of glTF files: a scene states one in the item of the model, "
                   "as {\"model\": \"shoe.glb\", \"variant\": \"NAME\"}");
   }
-  // A model's camera has set its own size.
+
+  // The camera of a model may have set a size of its own.
   if (file.has("view")) takeSize(options, context.scene);
   readView(file, fromSky, context);
   file.finish();
+
   applyInstant(options.instant, context.scene);
   return finish(options, fromSky, context);
 }

@@ -21,7 +21,7 @@ struct LoadOptions {
   bool allowOutside = false;                   // paths may leave the scene's folder and $WHIT_DATA
   std::uint64_t maxMemoryBytes = 16ull << 30;  // texels and geometry while loading
   int threads = 0;                             // decoders; 0: all
-  std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
+  std::string shippedScenes;                   // one more folder of shipped scenes, or empty
 
   // "POINTER=VALUE" for members of the scene file, see scene_settings.h. For a model they are
   // members of "materials" and "cameras" by their names there, its "lights" or the supplied ones,
@@ -59,8 +59,8 @@ struct LoadOptions {
 SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
 
-// A scene that a program makes: what a scene file would say, and what it hands over besides. Paths
-// are relative to the working directory. `name` stands for the file in errors.
+// A scene that a program makes: the text of a scene file, and the meshes and images that belong to
+// it. Paths are relative to the working directory. Errors give `name` as the file.
 struct SceneText {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string name;
   Json root;

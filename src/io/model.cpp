@@ -25,8 +25,8 @@ Opener openerOf(const std::filesystem::path& path) {
   return found == kOpeners.end() ? nullptr : found->second;
 }
 
-// The side of the vertex normals is the front. Files whose faces wind the other way, all of whose
-// corners say so, are turned, because shading takes the side of the winding.
+// Turns the faces whose winding opposes the vertex normals at all three corners. The side of the
+// normals is the front, and shading takes that of the winding.
 void turnToNormals(Mesh& mesh) {
   if (mesh.normals.empty()) return;
   for (auto& t : mesh.triangles) {

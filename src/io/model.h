@@ -22,14 +22,15 @@
 
 namespace whit {
 
-inline constexpr float kModelGray = 0.6f;  // albedo of what has no material
+inline constexpr float kModelGray = 0.6f;  // albedo of surfaces without a material
 
 // Names of a material's members that a scene file gives itself or that follow from those, in place
 // of what a model's own file says.
 using GivenMembers = std::set<std::string>;
 
-// Maps that the reader of a model leaves out where a scene gives the member that they multiply,
-// because that is meant as it stands. The map of a member is called as the member and "Map".
+// Maps that the reader of a model leaves out if a scene file gives the member that they multiply,
+// because the given value is meant as it stands. The map of a member has its name with "Map"
+// behind.
 struct ReplacedMap {
   const char* member;
   std::int32_t Material::*map;
@@ -41,11 +42,11 @@ inline constexpr std::array kReplacedMaps{ReplacedMap{"roughness", &Material::ro
 
 struct TexturedMaterial {
   Material material;
-  // Not empty where something depends on what the images hold: called once they are decoded.
+  // Called once the images are decoded; empty if nothing depends on what they hold.
   std::function<void(Material&)> whenDecoded;
 };
 
-// A file to open, and what its reader uses; it all outlives the model.
+// A file to open, and what its reader uses. All of it must outlive the model.
 struct ModelSource {
   std::filesystem::path path;
   const PathRules& rules;
@@ -54,31 +55,32 @@ struct ModelSource {
   const Instant& instant;
 };
 
-// Opened first, so that textures can be asked for before the geometry is read.
+// A model whose file has been opened. Its geometry is read later, by content(), so that textures
+// can be decoded meanwhile.
 class Model {
  public:
   virtual ~Model() = default;
 
-  // As the file has them, without their maps.
+  // Returns the materials as the file has them, without their maps.
   virtual const std::vector<Material>& materials() const = 0;
-  // `material` is materials()[i] or a copy with the `given` members changed; comes back with slots
-  // for the other maps of the file.
+  // Returns `material`, which is materials()[i] with the `given` members changed, with slots for
+  // the other maps of the file.
   virtual TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                                     TextureLoader& textures) = 0;
-  // The content of the model; its shared meshes are bodies of their own in `layout`. `materials`
-  // has the scene's index for each of materials().
+  // Returns the content of the model; its shared meshes become bodies of their own in `layout`.
+  // `materials` has the scene's index for each of materials().
   virtual Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) = 0;
   // Adds the file's own cameras and lights behind those of the scene. `toWorld` places the model in
   // the file's own coordinates: scene.origin is subtracted afterwards.
   virtual void addView(SceneDescription&, const Affine& /*toWorld*/) {}
-  // How many cameras and lights addView() adds.
+  // Returns the number of cameras and lights that addView() adds.
   virtual std::size_t viewSize() const { return 0; }
-  // The animations of the file, whatever the instant.
+  // Returns the animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
-  // Names of the sets of materials that the file lets choose from.
+  // Returns the names of the sets of materials to choose from.
   virtual std::vector<std::string> variants() const { return {}; }
 
-  std::optional<std::size_t> variant;  // the one of variants() that content() has
+  std::optional<std::size_t> variant;  // index of the set of variants() that content() uses
 };
 
 // A model that is one mesh, whose materials have no maps unless the class of the format adds some.
@@ -100,21 +102,21 @@ class MeshModel : public Model {
   Vec3d origin_;  // subtracted from the file's coordinates before they were rounded
 };
 
-// True if openModel() reads such a file, by its extension (any case).
+// Returns true if openModel() reads such a file, by its extension (any case).
 bool isModelFile(const std::filesystem::path& path);
 std::string modelExtensions();  // ".gltf, .obj"
-// By the extension; isModelFile() holds.
+// Opens a file for which isModelFile() is true.
 std::unique_ptr<Model> openModel(const ModelSource& source);
 
 // The readers that openModel() chooses from, each in the file of its format.
 std::unique_ptr<Model> openByAssimp(const ModelSource& source);
 std::unique_ptr<Model> openGltf(const ModelSource& source);
-// A model of which `bytes` are the content in place of that of the file.
+// Opens a model whose content is `bytes` in place of that of the file.
 std::unique_ptr<Model> openGltf(const ModelSource& source, const std::string& bytes);
 std::unique_ptr<Model> openObj(const ModelSource& source);
 std::unique_ptr<Model> openPly(const ModelSource& source);
 
-// Said once of a model that leaves the picture empty; `why` is a fixed phrase.
+// Warns once of a model that leaves the picture empty; `why` is a fixed phrase.
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings);
 
 // Appends a copy of the vertex, without second texture coordinates.

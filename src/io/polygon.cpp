@@ -77,7 +77,8 @@ class EarClipper {
     std::iota(left_.begin(), left_.end(), 0u);
   }
 
-  bool clip(Triangles& triangles) {
+  // `area` is twice that of the polygon.
+  bool clip(Triangles& triangles, double area) {
     while (left_.size() > 3) {
       std::size_t ear = findEar();
       if (ear == left_.size()) ear = findFlat();
@@ -89,7 +90,11 @@ class EarClipper {
     }
 
     triangles.push_back({left_[0], left_[1], left_[2]});
-    return true;
+
+    // Ears are counter-clockwise. The last triangle is not if the outline crosses itself, or if it
+    // is a sliver that the rounding of its corners has turned over, which is far thinner.
+    constexpr double kSliver = 1e-3;
+    return turn(points_[left_[0]], points_[left_[1]], points_[left_[2]]) > -kSliver * area;
   }
 
  private:
@@ -147,11 +152,12 @@ bool triangulate(const std::vector<Vec3d>& corners, Triangles& triangles) {
   }
 
   const Vec3d normal = newellNormal(corners);
+  const double area = maxComponent(abs(normal));  // twice that of the projection
   const std::size_t before = triangles.size();
-  if (isFinite(normal) && maxComponent(abs(normal)) > 0) {
+  if (isFinite(normal) && area > 0) {
     const std::vector<Point> points = project(corners, normal);
     if (corners.size() <= kEarCornerLimit) {
-      if (EarClipper(points).clip(triangles)) return true;
+      if (EarClipper(points).clip(triangles, area)) return true;
     } else if (isConvex(points)) {
       fan(count, triangles);
       return true;

@@ -18,8 +18,8 @@ inline constexpr std::size_t kEarCornerLimit = 512;
 // Appends the triangles of the simple polygon `corners` (at least 3) to `triangles`, in its sense
 // of rotation, as indices into `corners`: a quad along its shorter inner diagonal, others by
 // clipping ears (Meisters 1975, "Polygons have ears") in the plane of Newell's normal. Returns
-// false where that was not possible (crossing edges, no plane, too many corners of a concave
-// polygon) and a fan was made instead.
+// false where that was not possible (most crossing edges, no plane, too many corners of a concave
+// polygon) and a fan was made instead. Quads always have an answer.
 bool triangulate(const std::vector<Vec3d>& corners, std::vector<CornerTriple>& triangles);
 
 // Strips and fans join their parts by triangles that have a corner twice, which are left out.

@@ -13,11 +13,11 @@
 namespace whit {
 namespace {
 
-// At a point where more faces meet about this many are looked at, evenly spread.
+// If more faces meet at a point, about this many of them are used, evenly spread.
 constexpr std::size_t kMostAround = 1024;
 // Vertices are shared by corners that are no farther apart in the order of a point's corners.
 constexpr std::size_t kMostBetween = 64;
-// Rounding may turn faces of one plane by less.
+// Faces whose normals have a larger cosine lie in one plane, up to rounding.
 constexpr float kCoplanar = 1 - 1.0e-6f;
 
 struct FaceCorner {
@@ -114,7 +114,7 @@ void setVertices(std::span<FaceCorner> corners, Mesh& mesh) {
 }  // namespace
 
 void smoothNormals(Mesh& mesh, const std::string& file, MemoryBudget& budget) {
-  // Sorting takes as much again. Each corner may get a vertex, in place of that memory.
+  // Sorting takes as much memory again. Vertices for all corners fit into that memory later.
   budget.charge(mesh.triangles.size(), 2 * 3 * sizeof(FaceCorner), file);
   std::vector<FaceCorner> corners = cornersByPlace(mesh);
 

@@ -52,12 +52,13 @@ std::size_t checkedCount(const Rays& rays) {
   return count;
 }
 
-// `origin` is that of the scene.
+// Reads rays from number `first` on. `origin` is that of the scene.
 void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::span<QueryRay> to) {
   const auto limitOf = [](const Numbers& numbers, std::size_t i, double fallback) {
     if (numbers.size() == 0) return fallback;
     return numbers[numbers.size() == 1 ? 0 : i];
   };
+
   for (const auto i : indices(to)) {
     const std::size_t ray = first + i;
     to[i].origin = pointAt(rays.origins, ray) - origin;
@@ -67,7 +68,7 @@ void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::spa
   }
 }
 
-// All columns in one piece of memory, so that the system has few pages to give.
+// Allocates all columns in one piece of memory, so that the system has to supply few pages.
 RayHits columnsFor(std::size_t count) {
   RayHits hits;
   std::size_t bytes = 0;
@@ -91,9 +92,11 @@ RayHits columnsFor(std::size_t count) {
     return (components * count * sizeof(span[0]) + 63) / 64 * 64;
   };
   forEachColumn([&](auto& span, std::size_t n) { bytes += sizeOf(span, n); });
+
   HugePageAllocator<std::byte> allocator;
   std::byte* next = allocator.allocate(std::max<std::size_t>(bytes, 1));
   hits.memory = {static_cast<void*>(next), [](void* memory) { std::free(memory); }};
+
   forEachColumn([&](auto& span, std::size_t n) {
     using Element = typename std::remove_reference_t<decltype(span)>::element_type;
     span = {reinterpret_cast<Element*>(next), n * count};
@@ -107,7 +110,7 @@ void put(std::span<T> column, std::size_t i, const Vec3d& v) {
   for (int k = 0; k < 3; ++k) column[3 * i + k] = static_cast<T>(v[k]);
 }
 
-// Point and normals of a hit, and its numbers.
+// Stores the point, the normals and the numbers of a hit.
 void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, std::size_t i) {
   const std::uint32_t number = hit.id.triangle, instance = hit.id.instance;
   const TriangleRecord& record = scene.triangles[number];
@@ -121,12 +124,13 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
     normal = shading = normalized(own.normal(unit));
   } else {
     const Corners corners = worldCorners(scene, number, instance);
-    const double w = 1 - hit.u - hit.v;
+    const double w = 1 - hit.u - hit.v;  // weight of corner 0
     point = corners[0] * w + corners[1] * hit.u + corners[2] * hit.v;
     const bool mirrored = map && map->determinant() < 0;
     normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0])) *
              (mirrored ? -1.0 : 1.0);
     shading = normal;
+
     if (!scene.normals.empty()) {
       const float* const n = scene.normals[number].normal;
       const auto at = [&](int k) { return n[k] * w + n[k + 3] * hit.u + n[k + 6] * hit.v; };
@@ -171,7 +175,7 @@ void putHit(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, st
   to.sides[i] = 0;
 }
 
-// Makes ray(i) of each and asks whether it is blocked.
+// Asks for each ray makeRay(i) whether it is blocked. `wanted` is the answer that counts as yes.
 template <typename MakeRay>
 RayAnswers blockedRays(const Queried& at, std::size_t count, bool wanted, const MakeRay& makeRay) {
   RayAnswers answers;
@@ -190,14 +194,15 @@ RayAnswers blockedRays(const Queried& at, std::size_t count, bool wanted, const 
   return answers;
 }
 
-// The bound on the rounding of a point of some surface: the sizes of its corners are not known, but
-// those of the scene are.
+// Returns a bound on the rounding of a point of some surface. The magnitude of the surface's
+// corners is not known, but that of the scene is an upper bound.
 double roundingOf(const Queried& at, const Vec3d& point) {
   const Vec3d reach = max(abs(Vec3d(at.scene.lower)), abs(Vec3d(at.scene.upper)));
   return kErrorOfMagnitude * magnitudeOf(max(reach, abs(point)), nullptr);
 }
 
-// Off the surface by that, on the side of `towards`, as rays of pictures start.
+// Returns the point moved off the surface by that bound, to the side of `towards`, as rays of
+// pictures start.
 Vec3d offSurface(const Queried& at, const Vec3d& point, const Vec3d& normal, const Vec3d& towards) {
   const double offset = roundingOf(at, point);
   return point + normal * (dot(normal, towards) < 0 ? -offset : offset);
@@ -235,10 +240,13 @@ RayHits allHits(const Queried& at, const Rays& rays, std::size_t limit) {
     readRays(rays, at.scene.origin, first, part);
     at.queries.all(part, limit, found[first / kChunk], &counts[first]);
   });
+
+  // The hits of all rays follow each other; offsets say where those of each ray begin.
   std::vector<std::uint64_t> offsets(count + 1);
   for (const auto i : indices(count)) offsets[i + 1] = offsets[i] + counts[i];
   RayHits hits = columnsFor(offsets.back());
   hits.offsets = std::move(offsets);
+
   inParts(at, count, [&](std::size_t first, std::size_t) {
     std::size_t next = hits.offsets[first];
     for (const QueryHit& hit : found[first / kChunk]) putHit(at.scene, hit, hits, next++);
@@ -287,23 +295,30 @@ std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
   expect(normals.size() == points.size(), "a normal for each point");
   expect(radius > 0, "a radius above 0");
   expect(samples > 0, "samples above 0");
+
   std::vector<float> open(count);
   inParts(at, count, [&](std::size_t first, std::size_t end) {
     std::vector<QueryRay> rays(samples);
     std::vector<Blocked> blocked(rays.size());
     const LobeSampling sampling{static_cast<std::uint32_t>(samples)};
+
     for (std::size_t i = first; i < end; ++i) {
       const Vec3d point = pointAt(points, i) - at.scene.origin;
       const Vec3d normal = normalized(pointAt(normals, i));
+
+      // The random numbers follow from the bits of the point, so that an answer depends on it
+      // alone.
       std::uint32_t stream = 0;
       for (int k = 0; k < 3; ++k) {
         const auto bits = std::bit_cast<std::uint64_t>(point[k]);
         stream = mixed(stream ^ static_cast<std::uint32_t>(bits ^ bits >> 32));
       }
+
       for (std::uint32_t k = 0; k < sampling.count; ++k) {
         const Vec3d direction = cosineDirection(normal, lobePoint(stream, sampling, k));
         rays[k] = {offSurface(at, point, normal, normal), direction, 0, radius};
       }
+
       at.queries.blocked(rays, blocked.data());
       const auto free = std::ranges::count_if(blocked, [](const Blocked& b) { return !b.blocked; });
       open[i] = static_cast<float>(static_cast<double>(free) / samples);

@@ -43,7 +43,7 @@ struct Renderer::Data {
     });
   }
 
-  // To be called before the scene is changed: other renderers may share it.
+  // Call this before the scene is changed, because other renderers may share the scene.
   void ownScene() {
     if (scene.data_.use_count() == 1) return;
     engine.ownScene();

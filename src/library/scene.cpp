@@ -116,10 +116,12 @@ Json describe(const Material& noun) {
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes) {
   whit::LoadOptions load;
   load.allowOutside = options.allowOutside;
+
   constexpr double kMostGb = 1.8e10;  // what 64 bits hold; a NaN becomes 0
   const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
   load.maxMemoryBytes =
       gigabytes > 0 ? static_cast<std::uint64_t>(gigabytes * 1e9) : defaultMaxMemory();
+
   constexpr int kMostThreads = 1024;  // largest value of the option "threads"
   load.threads = std::clamp(options.threads, 0, kMostThreads);
   load.sky = options.sky;
@@ -128,6 +130,7 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   load.instant.movable = {options.movable.begin(), options.movable.end()};
   load.instant.animation = options.animation;
   load.settings = options.settings;
+
   // Folders are searched by this path, which may lead through the file of a header.
   load.shippedScenes = std::filesystem::path(shippedScenes).lexically_normal().string();
   return load;

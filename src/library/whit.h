@@ -244,7 +244,7 @@ class Image {
   // is valid until the image has another size; frames are traced into its memory.
   std::span<const float> rgb() const;
   // 8-bit sRGB after exposure and tone curve: r, g, b, alpha of each pixel, in the same order.
-  // Alpha is 255 but with set("background", "transparent").
+  // Alpha is 255 unless set("background", "transparent") was called.
   std::span<const std::uint8_t> srgb() const;
   // A channel that set("channels", "depth,object") asked for. scenes/README.md lists the channels,
   // their units and their values where nothing is hit. The spans are views of the image's memory,
@@ -257,13 +257,13 @@ class Image {
   };
   std::vector<Channel> channels() const;
   Channel channel(std::string_view name) const;  // status 2 if the image does not have it
-  // Writes .exr (linear, with the channels), .png or .jpg (sRGB), with the options as metadata but
-  // for .jpg; "x.depth.png" and "x.depth.exr" hold that channel alone. The file is replaced when it
-  // is complete. Throws status 2 where the image lacks the channel.
+  // Writes .exr (linear, with the channels), .png or .jpg (sRGB), with the options as metadata
+  // except in .jpg; "x.depth.png" and "x.depth.exr" hold that channel alone. The file is replaced
+  // when it is complete. Throws status 2 where the image lacks the channel.
   void write(const std::string& path) const;
   std::string png() const;  // the bytes of a PNG file
-  // All of the image as bytes, which the same version of the library reads. fromBytes() throws
-  // status 3 for others.
+  // Returns all of the image as bytes, which the same version of the library reads. fromBytes()
+  // throws status 3 for other bytes.
   std::string bytes() const;
   static Image fromBytes(std::string_view bytes);
 

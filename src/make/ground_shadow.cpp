@@ -25,9 +25,9 @@ constexpr double kBelow = 1.0e-3;
 // One number for each texel, in rows along z.
 using TexelCounts = std::vector<int>;
 
-// Moves points along the i-th direction onto the sheet, from units of 1 / `texels`. The directions
-// lie on a spiral in a disk (Vogel 1979), lifted to the hemisphere above it, where they are as
-// dense as the cosine of their angle to the vertical.
+// Returns the map that moves points along the i-th direction onto the sheet, in texels; `texels` is
+// their number in a unit of length. The directions lie on a spiral in a disk (Vogel 1979), lifted
+// to the hemisphere above it, where they are as dense as the cosine of their angle to the vertical.
 Affine ontoSheet(std::size_t i, double texels) {
   constexpr double kGoldenAngle = 2.399963229728653;
   const double square = (static_cast<double>(i) + 0.5) / kDirections;
@@ -58,7 +58,7 @@ void cover(const Corners& t, TexelCounts& silhouette) {
   }
 }
 
-// Counts the directions in which the model is above each texel. `center` is that of the sheet.
+// Counts the directions in which each texel sees the model above it. `center` is that of the sheet.
 TexelCounts countCovered(const SceneDescription& scene, const Vec3d& center, double texels) {
   std::vector<Corners> triangles;
   forEachPlacedTriangle(scene, kMostTriangles, [&](const Corners& t) {
@@ -87,9 +87,9 @@ Texture shadowOf(const TexelCounts& counts) {
     constexpr double kHalf = kSide / 2.0;
     const int column = i % kSide, row = i / kSide;
     const double across = (column + 0.5) / kHalf - 1, along = (row + 0.5) / kHalf - 1;
-    const double left = procedural::smoothStep(0, kFade, 1 - std::hypot(across, along));
+    const double fade = procedural::smoothStep(0, kFade, 1 - std::hypot(across, along));
     const std::size_t texel = i;
-    const auto opacity = static_cast<float>(left * counts[texel] / kDirections);
+    const auto opacity = static_cast<float>(fade * counts[texel] / kDirections);
     texture.texels[texel] = encodeDataTexel(opacity, 0, 0, 1);
   }
   return texture;

@@ -5,11 +5,11 @@
 
 namespace whit {
 
-// Adds a black sheet just below the model, which covers what is behind it as far as the model holds
-// off light of the sky there: the share of the directions above a plane, weighted by their cosine,
-// in which the model stands. So it is the same before any background, and transparent pictures have
-// it in their alpha. The sheet is seen from above, casts no shadow, and keeps the shadow of the
-// scene's time while the model moves.
+// Adds a black sheet just below the model. Its opacity is the share of a uniform sky that the model
+// occludes there: the share of the directions above a plane, weighted by their cosine, in which the
+// model stands. So the shadow is the same before any background, and transparent pictures have it
+// in their alpha. The sheet is seen from above and casts no shadow. While the model moves, it keeps
+// the shadow of the scene's time.
 void addGroundShadow(SceneDescription& scene);
 
 }  // namespace whit

@@ -50,6 +50,8 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
 void leaveOutOfSky(Sky& sky, EffectSet effects) {
   if (effects.has(Effect::sky)) sky = Sky();
   if (!effects.has(Effect::skyImage) || sky.kind != Sky::Kind::image) return;
+
+  // A gradient replaces the image.
   sky.kind = Sky::Kind::gradient;
   sky.image = EnvironmentImage();
   sky.zenith = {0.2f, 0.35f, 0.7f};
@@ -68,6 +70,7 @@ void leaveOutOfLights(std::vector<Light>& lights, EffectSet effects) {
   std::erase_if(lights, [](const Light& light) { return light.kind == Light::Kind::directional; });
 }
 
+// Keeps only the first instance of each object.
 void keepFirstUses(SceneDescription& d) {
   std::vector<bool> seen(d.objects.size(), false);
   std::erase_if(d.instances, [&](const Instance& instance) {
@@ -84,16 +87,19 @@ constexpr int kSegmentsOfSphere = 64;
 void leaveOut(SceneDescription& d, EffectSet effects) {
   for (Material& m : d.materials) leaveOutOfMaterial(m, effects);
   leaveOutOfSky(d.sky, effects);
+  leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::fog)) d.fog = Fog();
+
   if (effects.has(Effect::ambient)) d.ambient = {.reflection = d.ambient.reflection};
   if (effects.has(Effect::blurredSky)) d.ambient.reflection = 0;
   if (effects.has(Effect::ambientOcclusion)) d.ambient.occlusion = 0;
-  leaveOutOfLights(d.lights, effects);
-  if (effects.has(Effect::instances)) keepFirstUses(d);
+
   if (effects.has(Effect::depthOfField)) {
     for (Camera& camera : d.cameras) camera.aperture = 0;
     for (Keyframe& key : d.cameraPath) key.camera.aperture = 0;
   }
+
+  if (effects.has(Effect::instances)) keepFirstUses(d);
   for (Object& object : d.objects) {
     for (Mesh& mesh : object.meshes) {
       if (effects.has(Effect::spheres)) procedural::tessellateSpheres(mesh, kSegmentsOfSphere);

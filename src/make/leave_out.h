@@ -1,5 +1,5 @@
-// A scene without some of its effects, and the order in which `whit effects` adds them one after
-// the other. Measurements and tests compare a scene with itself in this way.
+// Leaves effects out of a scene, and lists the order in which `whit effects` adds them again.
+// Measurements and tests compare a scene with itself in this way.
 #pragma once
 
 #include <array>

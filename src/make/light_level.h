@@ -5,8 +5,8 @@
 
 namespace whit {
 
-// The mean brightness of white surfaces that the lights reach, without shadows: the mean, over
-// their area, of the logarithm of irradiance / pi. It is 0 where no light reaches any.
+// Returns the mean brightness of white surfaces that the lights reach, without shadows: the
+// geometric mean of irradiance / pi over their area. It is 0 if no light reaches any surface.
 double lightLevel(const SceneDescription& scene);
 
 }  // namespace whit

@@ -19,7 +19,7 @@
 namespace whit {
 namespace {
 
-// Models of more triangles are never taken for a room.
+// A model of more triangles is never taken for a room.
 constexpr std::uint64_t kMostOfRoom = 1'000'000;
 
 // Directions towards the eye, the most usual first. The front is +z.
@@ -91,14 +91,14 @@ class AngleSum {
 bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12, kClosed = -0.9;
 
-  AngleSum halves;  // of solid angles
+  AngleSum halves;  // sums half of each solid angle
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);
 
     // The solid angle of a triangle is positive if the point lies behind its front.
     const double volume = dot(a, cross(b, c)), space = la * lb * lc;
-    if (!(std::abs(volume) > kFlat * space)) return;  // it lies in the plane: on neither side
+    if (!(std::abs(volume) > kFlat * space)) return;  // the point lies in the triangle's plane
     halves.add(space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb, volume);
   });
   return halves.radians() / (2 * std::numbers::pi) <= kClosed;
@@ -237,7 +237,7 @@ void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& 
   const Vec3d eye = corner * kNearWall + Vec3d{0, 0.1, 0}, at = corner * -0.4 - Vec3d{0, 0.2, 0};
   view.camera.eye = Vec3f(placeInRoom(scene, center + half * eye, center));
   view.camera.at = Vec3f(center + half * at);
-  // A nearer eye might stand in a wall: the picture is enlarged.
+  // Zooming narrows the field of view, because an eye that moved nearer might end up in a wall.
   const double wide = std::tan(kWide * (std::numbers::pi / 360)) / scene.zoom;
   view.camera.fov = static_cast<float>(std::atan(wide) * (360 / std::numbers::pi));
   view.ceiling = placeInRoom(scene, center + half * Vec3d{0, kBelowCeiling, 0}, center);

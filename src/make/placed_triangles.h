@@ -17,7 +17,7 @@
 
 namespace whit {
 
-// Models of more triangles are sampled.
+// Of models with more triangles only a sample is looked at.
 inline constexpr std::uint64_t kMostLookedAt = 4'000'000;
 inline constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
 
@@ -35,8 +35,8 @@ inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
   return count;
 }
 
-// Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
-// validated yet.
+// Returns the corners in the world. Nothing is validated yet, so the result is none if a corner is
+// missing or lies beyond the range that can be traced.
 inline std::optional<Corners> placed(const std::vector<Vec3f>& positions,
                                      const std::array<std::uint32_t, 3>& triangle,
                                      const Affine& toWorld) {

@@ -13,9 +13,9 @@
 
 namespace whit {
 
-// Where a generator gets its parameters from. Each call names a key, its default, and the range
-// that is accepted; the implementation reports a value of the wrong kind or range by its place in
-// the scene file, and afterwards any key that no generator asked for.
+// The source of a generator's parameters. Each call names a key, its default, and the range that is
+// accepted. The implementation reports a value of the wrong kind or range by its place in the scene
+// file, and afterwards any key that no generator has asked for.
 class ShapeParameters {
  public:
   virtual ~ShapeParameters() = default;
@@ -55,7 +55,7 @@ struct Shape {
   }
 
   std::vector<ShapePart> parts;
-  // Where copies stand, in the shape's own space. Empty: one copy as it is.
+  // The places of copies in the shape's own space. Empty: one copy as it is.
   std::vector<Affine> placements;
 };
 

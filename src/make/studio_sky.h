@@ -7,7 +7,8 @@ namespace whit {
 
 inline constexpr const char* kStudio = "studio";
 
-// A gray gradient with three soft boxes, which lie above the part that is visible beside a model.
+// Returns a gray gradient with three soft boxes, which lie above the part of the sky that is
+// visible beside a model.
 Sky studioSky();
 
 }  // namespace whit

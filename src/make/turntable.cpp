@@ -15,10 +15,10 @@
 namespace whit {
 namespace {
 
-// Slices in which the silhouette of a model on a turntable is kept.
+// Number of slices of equal height that make up the silhouette of a model on a turntable.
 constexpr std::size_t kSlices = 64;
 
-// The distance of the scene's outermost points from the axis, at each height.
+// The distance of the scene's outermost points from the axis, for each slice of its height.
 struct Silhouette {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   std::array<double, kSlices> radius{};

@@ -16,31 +16,31 @@ std::string nameOf(const std::string& name, const char* kind, std::size_t number
   return concat(kind, " ", number);
 }
 
-std::string metText(const Scene& scene, const RayNode& node) {
+std::string hitText(const Scene& scene, const RayNode& node) {
   if (node.triangle == kMiss) return "leaves the scene";
   return formatted("%s, %.6g away%s", materialName(scene, node.material).c_str(), node.distance,
                    node.hidden ? ", hidden in another medium" : "");
 }
 
-std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
+std::string divergenceText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
   const std::size_t other = rays.counterpart[node];
-  if (other == kNoCounterpart) return "it does not follow this ray";
+  if (other == kNoCounterpart) return "it does not trace this ray";
 
   const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
-  if (!hitsSameSurface(n, reference)) return metText(scene, reference);
+  if (!hitsSameSurface(n, reference)) return hitText(scene, reference);
   return seesSameLights(n, reference) ? "it sends on other rays" : "it sees other lights";
 }
 
 }  // namespace
 
-bool ExplainedRays::partsAt(std::size_t node) const {
+bool ExplainedRays::divergesAt(std::size_t node) const {
   return counterpart[node] == kNoCounterpart ||
          !agree(packets.nodes[node], reference.nodes[counterpart[node]]);
 }
 
-bool ExplainedRays::partsFirstAt(std::size_t node) const {
+bool ExplainedRays::divergesFirstAt(std::size_t node) const {
   const std::size_t parent = packets.nodes[node].parent;
-  return partsAt(node) && (parent == node || !partsAt(parent));
+  return divergesAt(node) && (parent == node || !divergesAt(parent));
 }
 
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x,
@@ -88,14 +88,14 @@ std::string colorOf(RayLook look) {
 
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
   const RayNode& n = rays.packets.nodes[node];
-  RayText text{metText(scene, n), mediumName(scene, n.media), {}};
+  RayText text{hitText(scene, n), mediumName(scene, n.media), {}};
 
   const auto adds = [&](const std::string& what, const RgbD& own) {
     text.lines.push_back(what + " adds " + textOf(contributionOf(rays.packets, node, own)));
   };
 
-  if (rays.partsFirstAt(node)) {
-    text.lines.push_back("here the reference parts: " + partingText(scene, rays, node));
+  if (rays.divergesFirstAt(node)) {
+    text.lines.push_back("here the reference diverges: " + divergenceText(scene, rays, node));
   }
   if (maxComponent(n.emitted) > 0) {
     adds(n.triangle == kMiss ? "sky" : "emission and ambient", n.emitted);

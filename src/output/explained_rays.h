@@ -1,4 +1,4 @@
-// The rays of a pixel as both ways to trace have found them, and the words for what is in them.
+// The rays of a pixel as packets and the scalar reference have traced them, and words for them.
 #pragma once
 
 #include <array>
@@ -16,17 +16,18 @@ namespace whit {
 
 struct ExplainedRays {
   RayTree packets, reference;
-  std::vector<std::size_t> counterpart;  // the reference's node for each of the packets'
+  std::vector<std::size_t> counterpart;  // the reference's node for each node of the packets
 
-  // Where the two part: the surface, shadows or impulses differ.
-  bool partsAt(std::size_t node) const;
-  bool partsFirstAt(std::size_t node) const;  // and did not before
+  // True if the two differ at this node, in its surface, shadows or impulses.
+  bool divergesAt(std::size_t node) const;
+  // True if they differ at this node and not at its parent.
+  bool divergesFirstAt(std::size_t node) const;
 };
 
 // `film` gives the size of the picture; see inspect/ray_tree.h.
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
-// The radiance that `own` of a node adds to the pixel.
+// Returns the radiance that `own`, radiance of a node, adds to the pixel.
 RgbD contributionOf(const RayTree& tree, std::size_t node, const RgbD& own);
 
 std::string materialName(const Scene& scene, std::uint32_t material);
@@ -38,8 +39,9 @@ std::string colorOf(RayLook look);  // color of its lines, "#ff0000"
 
 // The words that describe a ray of the packets.
 struct RayText {
-  std::string hit, medium;         // "glass, 2.5 away" and "vacuum"
-  std::vector<std::string> lines;  // where the reference parts, what the ray adds, and how it ends
+  std::string hit, medium;  // "glass, 2.5 away" and "vacuum"
+  // Whether the reference diverges here, what the ray adds, and how it ends.
+  std::vector<std::string> lines;
 };
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);
 // Returns by how many 8-bit codes a channel of the pixel changes at most without the node and all

@@ -22,7 +22,7 @@ namespace whit {
 bool hasFfmpeg() { return std::system("command -v ffmpeg >/dev/null 2>&1") == 0; }
 
 FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) : path_(path) {
-  const cli::WriteScope starting;  // until the interrupt handler knows what it has to undo
+  const cli::WriteScope starting;  // interruptions wait until they would undo everything
   file_.emplace(path);
   if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
 
@@ -88,7 +88,7 @@ void FilmPipe::add(std::span<const std::uint8_t> rgba) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       wait();
-      throwIo("cannot write '" + path_ + "': ffmpeg has ended before its time");
+      throwIo("cannot write '" + path_ + "': ffmpeg ended early");
     }
 
     rgba = rgba.subspan(count);

@@ -1,5 +1,5 @@
-// The summary of a run: a scene, its settings, and what its frames cost. The common source of
-// tables and JSON.
+// The summary of a run: a scene, its settings, and what its frames cost. Tables and JSON follow
+// from it.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ struct RunSummary {
   RenderOptions options;
   Machine machine;
   EffectSet effects;
-  std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
+  std::uint64_t triangles = 0, spheres = 0;  // counted once for each instance
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;  // counted ones; none: all images were there
+  std::vector<FrameStats> frames;  // the frames that count; none if --resume kept all images
   std::vector<double> floorMs;     // empty without --floor
   // Sums over the frames of kProcessorEvents; empty where they were not counted.
   std::vector<double> events;
@@ -36,17 +36,18 @@ struct RunSummary {
   std::vector<double> writingMs, waitedMs;
   std::vector<double> updateMs;   // time to bring a scene that moves to each frame's instant
   double tracedAndWrittenMs = 0;  // time from the first frame to the last file
-  std::size_t kept = 0;           // frames whose images were there
+  std::size_t kept = 0;           // number of frames whose images existed already
 };
 
 RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs);
 
-// The frame of median duration (the lower of the two middle ones): its stages add up.
+// Returns the frame of median duration, or the lower of the two middle ones; its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
 
-// One line that says why the figures are higher than on an idle machine; empty if they are not.
+// Returns one line that says why the times are longer than on an idle machine; empty if they are
+// not.
 std::string loadText(const RunSummary& run);
 
 // Frames per second, traced and written.
@@ -55,11 +56,12 @@ double writtenPerSecond(const RunSummary& run);
 // The frame's time that is not spent inside Embree's calls.
 double outsideEmbreeMs(const FrameStats& frame);
 
-// `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
-// else the machine did to both of a turn's frames cancels. 0 for none.
 struct RunRatio {
   double frame = 0, outsideEmbree = 0;
 };
+// Returns the times of `a` over those of `b`, two runs whose frames took turns: the medians over
+// the turns, so that disturbances of both frames of a turn cancel. They are 0 if there are no
+// frames.
 RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
 
 // Live lanes over lanes sent to Embree; 0 where nothing was sent.
@@ -71,19 +73,20 @@ std::vector<double> eventsPerRay(const RunSummary& run);
 // "2 triangles", "3 spheres" or both.
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
 
-// Scene, tables, queues and acceleration structure, in 10^6 bytes.
+// Returns the memory of scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);
 
-// One line about the run's settings, one about its frame times, the eight stages of the median
-// frame and its rays, of the kinds that the scene calls for, what writing its image took if it was
-// written, and the floor if it was measured.
+// Returns a table for people: one line about the run's settings, one about its frame times, the
+// eight stages of the median frame, its rays of the kinds that the scene calls for, the time of
+// writing its image if it was written, and the floor if it was measured.
 std::string stageTable(const RunSummary& run);
 
 // Returns a sentence for each kind of fault in the pictures of all frames: pixels whose rays were
 // limited, and pixels that are not finite.
 std::vector<std::string> pictureWarnings(const RunSummary& run);
 
-// The second of two runs of one scene, whose frames took turns, over the first.
+// Returns the times of the second of two runs over those of the first, as text. Both are of one
+// scene and their frames took turns.
 std::string ratioText(const RunSummary& first, const RunSummary& second);
 
 }  // namespace whit

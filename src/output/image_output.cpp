@@ -38,9 +38,10 @@ void writeDisplay(const std::string& path, const DisplayImage& image,
   }
 }
 
-constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that might be whole
+constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // bytes of a pixel that whit writes
 
-// The pixels are read as well: a file that was cut off still has its head.
+// Reads all of a picture and returns its metadata. A file that was cut off still has its head, so
+// the pixels are read as well.
 ImageMetadata readThrough(const std::string& path, const Image& image) {
   if (extensionOf(path) == ".png") return readPngMetadata(path);
 
@@ -52,7 +53,8 @@ ImageMetadata readThrough(const std::string& path, const Image& image) {
   return readExrMetadata(path);
 }
 
-// Sorted, without empty entries and those that may differ between machines.
+// Returns the metadata sorted, without empty entries and without those that may differ between
+// machines.
 ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
   std::erase_if(metadata, [&](const auto& entry) {
     return entry.second.empty() || (entry.first == "simd" && options.simd == "auto") ||

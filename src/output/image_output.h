@@ -13,16 +13,17 @@
 
 namespace whit {
 
-// Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
-// its folder is there and can be written to. No extensions: any name will do.
+// Checks an output before the work starts. Throws Error(usage) unless `path` ends in one of
+// `extensions` (none: any name will do), and Error(io) unless its folder exists and can be written
+// to.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
 bool isJpeg(const std::string& path);  // by its extension
-// Makes the folder of results if it is not there. Throws Error(io).
+// Makes the folder of results if it does not exist. Throws Error(io).
 void makeFolder(const std::string& path);
-// As requireWritable() for the value of --json: empty and "-" are fine.
+// Does the same for the value of --json, which may also be empty or "-".
 void requireJsonWritable(const std::string& path);
 
-// Where pictures may go besides files.
+// The name that stands for standard output in place of a file.
 inline constexpr const char* kStandardOutput = "-";
 
 inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dwaa"};
@@ -40,8 +41,8 @@ struct ImageFormat {
 // what writeChannelPng() throws.
 void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
                 const ImageFormat& format = {});
-// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the
-// image of one channel its name.
+// Returns the metadata that writeImage() adds: for an EXR its channels and its storage unless that
+// is usual, for the image of one channel its name.
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
 
 // True if `path` (.exr or .png) is what a render into `image` would write: readable to its last
@@ -57,8 +58,8 @@ struct FrameRange {
 };
 FrameRange parseFrameRange(const std::string& text);  // "3" or "0..47"; throws Error(usage)
 
-// The run of '#' in the file's name becomes the frame's number, zero-padded to its length; throws
-// Error(usage) when the name has none. Standard output takes all frames.
+// Returns the file's name with the frame's number in place of its run of '#', zero-padded to the
+// length of the run. Throws Error(usage) if the name has none. Standard output takes all frames.
 std::string frameName(const std::string& pattern, int frame);
 // Throws Error(usage) when the name is meant for frames: two '#' or more.
 void requireNoFrameName(const std::string& name);

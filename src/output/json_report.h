@@ -19,9 +19,10 @@ Json optionsJson(const RenderOptions& options);
 Json machineJson(const Machine& machine);
 // `name` tells the runs of one scene apart ("effects all"); `other_tasks` is the median number of
 // tasks of other programs that wanted a processor. `writing_ms`, where images were written, has the
-// medians of what writing one took and of what the tracing waited for it; `written_per_s` is the
-// rate of both together. `stages_ms`, `embree_ms`, `rays` and what follows are those of the median
-// frame; a run of no frames, whose images were all there, has none of what is measured on frames.
+// medians of the time that writing one took and of the time that tracing waited for it;
+// `written_per_s` is the rate of both together. `stages_ms`, `embree_ms`, `rays` and the keys
+// behind them are those of the median frame. A run without frames, whose images all existed, has no
+// keys that are measured on frames.
 Json runJson(const RunSummary& run);
 // Writes an object, with the number of the format as its first member: "schema", which changes when
 // a key is renamed or gets another meaning. "-" is standard output. Throws Error(io).

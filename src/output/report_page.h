@@ -9,15 +9,15 @@ namespace whit {
 
 using Json = nlohmann::ordered_json;
 
-// An array of objects with equal keys as CSV, with the keys of the first as header. Null is an
-// empty field, true is "yes", and a number has seven digits.
+// Returns an array of objects with equal keys as CSV, with the keys of the first object as header.
+// Null is an empty field, true is "yes", and a number has seven digits.
 std::string csvOf(const Json& rows);
 
-// The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
+// Returns the page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
 // "verify". The page loads nothing from elsewhere.
 std::string reportPage(const Json& data);
 
-// Any page, with `data` in the place of its "{{data}}", which is the text of a script element.
+// Returns a page with `data` in place of its "{{data}}", which is the text of a script element.
 std::string pageWith(std::string_view html, const Json& data);
 
 std::string base64(std::string_view bytes);

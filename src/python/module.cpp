@@ -429,7 +429,7 @@ std::map<std::string, double> animationsOf(Session& session) {
   });
 }
 
-// Of float32 or float64, C-contiguous.
+// Returns the numbers of an array, which must be of float32 or float64 and C-contiguous.
 api::Numbers numbersOf(const py::array& array) {
   const std::size_t count = array.size();
   if (array.dtype().is(py::dtype::of<float>())) {

@@ -32,9 +32,9 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
   return {origin, raised(bent, -s.geometricNormal, smallestElevation(steepness)), s.cone};
 }
 
-// The color, reduced to what is left of the light where the share `taken` of it is not: in
-// proportion, so that glass keeps its hue under a mirror; but a channel whose own sum allows more
-// than the others' keeps more, where a mirror is colored.
+// Scales the color down where color + taken would exceed 1. All channels are scaled by one factor,
+// so that glass keeps its hue under a mirror; but a channel whose own sum allows more keeps more,
+// which matters under colored mirrors.
 RgbD limited(const RgbD& color, const RgbD& taken) {
   const RgbD left = max(RgbD(1.0) - taken, RgbD(0.0));
   const double largest = maxComponent(color);
@@ -53,11 +53,11 @@ double cosineOf(const Surfel& surfel) {
 }
 
 // Returns how much of `color`, which lies under the mirror, is sent out if layers between them send
-// out the share `others`. Under a coat it is the light that the coat lets through.
+// out the share `others`. A coat dims it even where there is light enough for both.
 RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror,
                  const RgbD& others = {}) {
-  if (material.coat) return color * (RgbD(1.0) - mirror);
-  return limited(color, mirror + others);
+  const RgbD below = material.coat ? color * (RgbD(1.0) - mirror) : color;
+  return limited(below, mirror + others);
 }
 
 // The share of the light that the interface does not reflect, but for facets, which are a lobe.
@@ -85,13 +85,14 @@ Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
   return {x, cross(n, x), n, sine};
 }
 
-// The sample of a lobe that the child is.
+// A child that samples a lobe.
 struct LobeChild {
   Impulse impulse;
   int rays = 1;  // number of rays that share the lobe
 };
 
-// The sample of the lobe that its path says it is; none if it is no sample of a lobe.
+// Finds the sample of a lobe whose path number is that of the child; none for mirrored and
+// refracted rays.
 std::optional<LobeChild> sampleOfLobe(const World& world, const Chunk& chunk, std::size_t child,
                                       RayKind kind, const Surfel& surfel) {
   if (!chunk.has(Feature::streams)) return std::nullopt;
@@ -241,7 +242,7 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
   const RgbD mirror = mirrorOf(material, effects, surfel);
   const double passed = passedBy(crossing, choices, surfel);
   RgbD albedo, through;
-  if (material.covers(effects)) {
+  if (material.dimsBelow(effects)) {
     albedo = weightOfLobe(material, effects, choices, points, surfel);
   }
   surfel.lobe = albedo * passed;
@@ -275,7 +276,7 @@ struct Facet {
 
 Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {
   const Frame frame = frameOfIncidence(s.shadingNormal, s.view);
-  const double nv = std::max(dot(s.shadingNormal, s.view), 1e-4), alpha = widthOfFacets(s);
+  const double nv = std::max(dot(s.shadingNormal, s.view), kLeastCosine), alpha = widthOfFacets(s);
   const double turn = 2 * std::numbers::pi * double{at.u};
   const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, std::cos(turn),
                                 std::sin(turn), double{at.v});
@@ -308,7 +309,8 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   const Facet facet = facetAt(s, at, choices.fresnel);
   if (!(facet.elevation > 0)) return {};
 
-  // Turned back by bent normals only: where both agree the ray is high enough as it is.
+  // A ray is raised only where the shading normal differs from the geometric one; elsewhere it is
+  // high enough already.
   const double least = smallestElevation(facet.elevation);
   const Vec3d r = choices.bend ? raised(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
   return {facet.reflectance * (facet.passes * s.coverage) * s.aboveLobe,

@@ -30,7 +30,7 @@ struct Impulses {
     return kind == RayKind::refraction ? refracted : Impulse();
   }
 };
-// The branch of the paths that it leads.
+// Returns the branch number (childStream) of mirrored or refracted rays.
 constexpr std::uint32_t branchOf(RayKind kind) {
   return kind == RayKind::refraction ? kRefractedBranch : kMirroredBranch;
 }

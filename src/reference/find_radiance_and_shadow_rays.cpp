@@ -53,7 +53,7 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   const Vec3d& n = surfel.shadingNormal;
   const Vec3d h = normalized(toLight + surfel.view, n);
   const double nl = dot(n, toLight), nh = dot(n, h), vh = dot(surfel.view, h);
-  const double nv = std::max(dot(n, surfel.view), 1e-4);
+  const double nv = std::max(dot(n, surfel.view), kLeastCosine);
   const double a2 = surfel.alpha * surfel.alpha;
   // nh^2 (a2 - 1) + 1, but next to the highlight of a narrow lobe the cosine alone loses it: to a
   // normal that is a unit vector in float only, for one.
@@ -102,6 +102,17 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   return arrival;
 }
 
+LightArrival arrivalFromLight(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                              const Light& light, const ShadingChoices& choices,
+                              const LightPoint& point) {
+  LightArrival arrival = radianceFromLight(effects, surfel, light, choices, point);
+  if (effects.has(Effect::fog)) {
+    const Vec3d way = arrival.shadowRay.origin + arrival.shadowRay.direction - surfel.position;
+    arrival.radiance = arrival.radiance * leftOfLight(scene.fog, light, way);
+  }
+  return arrival;
+}
+
 LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
                             const ShadingChoices& choices, const UnitPoint& at) {
   const Vec3d direction = cosineDirection(surfel.shadingNormal, at);
@@ -133,14 +144,8 @@ LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot)
   const Material& material = world.scene.materials[surfel.material];
   surfel.grazingRatio = double{material.grazingRatio};
   surfel.underCoat = underCoat(material, world.effects, surfel);
-  LightArrival arrival =
-      radianceFromLight(world.effects, surfel, *chunk.light, chunk.options().shading, point);
-  if (world.effects.has(Effect::fog)) {
-    const Vec3d way = arrival.shadowRay.origin + arrival.shadowRay.direction - surfel.position;
-    arrival.radiance = arrival.radiance * leftOfLight(world.scene.fog, *chunk.light, way);
-  }
-
-  return arrival;
+  return arrivalFromLight(world.scene, world.effects, surfel, *chunk.light, chunk.options().shading,
+                          point);
 }
 
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,

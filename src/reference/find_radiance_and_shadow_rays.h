@@ -36,6 +36,12 @@ struct LightArrival {
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {}, const LightPoint& point = {});
 
+// Returns the same as radianceFromLight(), in scenes with fog dimmed by the fog on the way from the
+// light.
+LightArrival arrivalFromLight(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                              const Light& light, const ShadingChoices& choices,
+                              const LightPoint& point);
+
 // Returns the arrival of ambient light, as if all of it came from the direction drawn by the cosine
 // to the shading normal at `at`. It is occluded by anything nearer than the occlusion radius and by
 // the surface itself. Nothing arrives where the surfel reflects none.

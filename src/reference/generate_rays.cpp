@@ -124,17 +124,18 @@ Vec3d towards(double azimuth, double elevation) {
 }
 
 // Returns radians to the right of the view, for projections by azimuth and elevation.
-double azimuthAt(const CameraFrame& camera, double X) {
-  if (camera.projection == Projection::panorama) return X * length(camera.right);
-  const double degrees = entryAt(camera.azimuths, X + camera.viewWidth / 2.0, camera.viewWidth);
+double azimuthAt(const CameraFrame& camera, double rightward) {
+  if (camera.projection == Projection::panorama) return rightward * length(camera.right);
+  const double degrees =
+      entryAt(camera.azimuths, rightward + camera.viewWidth / 2.0, camera.viewWidth);
   return degrees * (std::numbers::pi / 180);
 }
 
-// Returns the direction along right, up and forward through the point X, Y pixels right of and
-// above the center; 0 where nothing is seen.
-Vec3d bent(const CameraFrame& camera, double X, double Y) {
+// Returns the direction along right, up and forward through the point that lies so far right of and
+// above the center in pixels; 0 where nothing is seen.
+Vec3d projectedDirection(const CameraFrame& camera, double rightward, double upward) {
   constexpr double kRadians = std::numbers::pi / 180;
-  const double x = X * length(camera.right), y = Y * length(camera.up);
+  const double x = rightward * length(camera.right), y = upward * length(camera.up);
 
   switch (camera.projection) {
     case Projection::perspective: {
@@ -143,11 +144,11 @@ Vec3d bent(const CameraFrame& camera, double X, double Y) {
       return normalized(Vec3d{(*point)[0], -(*point)[1], 1});
     }
     case Projection::panorama:
-      return towards(azimuthAt(camera, X), y);
+      return towards(azimuthAt(camera, rightward), y);
     case Projection::directions:
-      return towards(
-          azimuthAt(camera, X),
-          kRadians * entryAt(camera.elevations, camera.viewHeight / 2.0 - Y, camera.viewHeight));
+      return towards(azimuthAt(camera, rightward),
+                     kRadians * entryAt(camera.elevations, camera.viewHeight / 2.0 - upward,
+                                        camera.viewHeight));
     default: {
       const double radius = std::hypot(x, y), angle = fisheyeAngle(camera, radius);
       if (!(angle <= camera.limit)) return {};
@@ -188,7 +189,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     return {start, normalized(through, view.forward), pixelCone(camera)};
   }
 
-  const Vec3d d = bent(camera, x, y), right = normalized(view.right);
+  const Vec3d d = projectedDirection(camera, x, y), right = normalized(view.right);
   const Vec3d direction = right * d.x + normalized(view.up) * d.y + view.forward * d.z;
   if (camera.turning == 0) return {start, direction, pixelCone(camera)};
 

@@ -1,7 +1,8 @@
 // The scalar reference: Whitted's recursion in double precision, one ray at a time. No SIMD, no
 // queues, no tiles. It shares no formula with the kernels. Both modes share the tables of `bake`,
-// the random numbers of `sampling` and two rules of `surfaces`: which of several surfaces in one
-// place is hit, and the media that a ray starts in (tests/README.md, "What both modes share").
+// the random numbers of `sampling` and three rules of `surfaces`: which of several coincident
+// surfaces is hit, the media that a ray starts in, and the channels roughness, metallic and motion
+// (tests/README.md, "What both modes share").
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/path_observer.h"
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
 #include "surfaces/channel_values.h"
@@ -37,7 +38,7 @@ struct Settings {
 // Counters of the rays traced, by their kind.
 class RayCounts {
  public:
-  // Sums over the samples of RadianceColumns::ended and of clearR, clearG and clearB.
+  // Sums over the samples of RadianceColumns::ended and RadianceColumns::clear.
   double ended = 0;
   RgbD clear;
 
@@ -110,8 +111,8 @@ class Tracer {
   // Returns the mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
-  // Returns the standard error of pixel(), for the mean of the three colors and as if samples were
-  // independent; infinity for one sample.
+  // Returns the standard error of pixel(), as the root mean square of those of the three colors and
+  // as if samples were independent; infinity for one sample.
   double standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
   // Return the radiance along the ray through the pixel's center alone, and the surface that it

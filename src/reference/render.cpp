@@ -65,23 +65,24 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
   const std::vector<Vec2f> pattern = samplePattern(options.spp);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
+  std::vector<RgbD> means(first.pixels.size());  // of the probes
   const double scale = std::exp2(double{options.exposure.ev});
   forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
     if (edges[first.index(x, y)] == 0) return;
-    PixelProbes& pixel = probes.at(x, y);
+    RgbD& mean = means[first.index(x, y)];
     for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
       const std::size_t number = s;
       const RgbD value = tracer.sampled(frame, x, y, pattern[number], number, own);
-      addSample(pixel.total, value, s + 1.0);
-      pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
+      addSample(mean, value, s + 1.0);
+      probes.at(x, y).codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
     }
-    first.at(x, y) = Rgb(pixel.total);
+    first.at(x, y) = Rgb(mean);
   });
   forEach(image.window, [&](int x, int y, RayCounts& own) {
     image.at(x, y) = first.at(x, y);
     if (options.spp <= kProbeSamples || edges[first.index(x, y)] == 0) return;
     if (!probes.differ(x, y, options.contrast)) return;
-    RgbD mean = probes.at(x, y).total;
+    RgbD mean = means[first.index(x, y)];
     for (std::size_t s = kProbeSamples; s < pattern.size(); ++s) {
       addSample(mean, tracer.sampled(frame, x, y, pattern[s], s, own), static_cast<double>(s + 1));
     }
@@ -103,12 +104,12 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
 
 // By the running sum of squared deviations (Welford 1962), which does not cancel.
 double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  double mean = 0, deviations = 0, taken = 0;
+  RgbD mean;
+  double deviations = 0, taken = 0;
   for (const auto s : indices(samples_)) {
-    const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
-    const double value = (sample.x + sample.y + sample.z) / 3, before = value - mean;
+    const RgbD sample = sampled(camera, x, y, samples_[s], s, counts), before = sample - mean;
     mean += before / ++taken;
-    deviations += before * (value - mean);
+    deviations += dot(before, sample - mean) / 3;
   }
   return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken) : kInfinity;
 }

@@ -44,35 +44,35 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
                           RayCounts& counts, Path path) const {
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
   const bool foggy = effects_.has(Effect::fog) && media == 0 && !(ray.direction == Vec3d());
-  const auto leftAfter = [&](double distance) {
+  const auto transmittanceAfter = [&](double distance) {
     if (foggy) return leftBy(scene_.fog, distance);
-    if (absorbs) return transmittance(scene_, media, distance);
+    if (absorbs) return reference::transmittance(scene_, media, distance);
     return RgbD(1.0);
   };
-  const auto scattered = [&](const RgbD& left) {
+  const auto scattered = [&](const RgbD& transmittance) {
     if (!foggy) return RgbD();
-    return RgbD(scene_.fog.color) * (RgbD(1.0) - left);
+    return RgbD(scene_.fog.color) * (RgbD(1.0) - transmittance);
   };
 
   const std::optional<ChosenSurface> found = nearest(ray, depth);
   if (!found) {
-    const RgbD left = leftAfter(kInfinity);
-    if (path.straight) counts.clear += left * path.weight;
-    if (path.straight && options_.background.hidesSky()) return scattered(left);
-    return skyAlong(scene_, effects_, ray.direction) * left + scattered(left);
+    const RgbD transmittance = transmittanceAfter(kInfinity);
+    if (path.straight) counts.clear += transmittance * path.weight;
+    if (path.straight && options_.background.hidesSky()) return scattered(transmittance);
+    return skyAlong(scene_, effects_, ray.direction) * transmittance + scattered(transmittance);
   }
 
   const Candidate& candidate = found->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const RgbD arrives = leftAfter(hit.t);
+  const RgbD transmittance = transmittanceAfter(hit.t);
   Surfel surfel = surfelAt(ray, *found, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, found->alsoCrossed);
   const LobePoints points{path.number, lobeSampling(depth, glossySamples(options_), path.sample)};
   findLayers(scene_, effects_, crossing, options_.shading, points, surfel);
 
-  const double left = throughput * maxComponent(arrives);
-  path.weight = path.weight * arrives;
+  const double throughputHere = throughput * maxComponent(transmittance);
+  path.weight = path.weight * transmittance;
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
@@ -80,26 +80,26 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
       radiance += radianceFromAmbient(surfel, depth, counts, path);
     }
     if (effects_.has(Effect::lights)) {
-      radiance += radianceFromLights(surfel, depth, left, counts, path);
+      radiance += radianceFromLights(surfel, depth, throughputHere, counts, path);
     }
   }
   if (depth < options_.depth || keptChannels(options_).has(Channel::error)) {
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
-    Choice choice = chooseImpulses(children, surfel, crossing, depth, left, media, path);
+    Choice choice = chooseImpulses(children, surfel, crossing, depth, throughputHere, media, path);
     for (const RayKind kind : kImpulseKinds) {
       const Impulse child = children.of(kind);
       Path childPath = childOf(path, branchOf(kind));
       childPath.straight = path.straight && child.ray.direction == ray.direction;
-      RgbD sum = follow(child, kind, depth + 1, left, counts, childPath, 1, choice);
+      RgbD sum = follow(child, kind, depth + 1, throughputHere, counts, childPath, 1, choice);
       for (const SampledLobe& sampled : kSampledLobes) {
         if (sampled.lobe.kind != kind || crossing.hidden) continue;
-        sum += radianceByLobe(sampled, surfel, depth, left, media, counts, path, choice);
+        sum += radianceByLobe(sampled, surfel, depth, throughputHere, media, counts, path, choice);
       }
       radiance += sum;
     }
   }
-  return radiance * arrives + scattered(arrives);
+  return radiance * transmittance + scattered(transmittance);
 }
 
 Surfel Tracer::surfelAt(const Ray& ray, const ChosenSurface& chosen, const TriangleHit& hit) const {
@@ -110,7 +110,8 @@ Surfel Tracer::surfelAt(const Ray& ray, const ChosenSurface& chosen, const Trian
                     chosen.alsoCrossed >= kSharesPlace);
 }
 
-// The nearest surface; of the camera's rays, that their start does not lie in.
+// Returns the closest surface that the ray hits. Rays of the camera pass the surfaces that the eye
+// lies in.
 std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
   Candidate candidate;
   for (int attempt = 0; attempt < kAttemptsPastEye; ++attempt) {
@@ -228,7 +229,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   return followed.weight * radiance;
 }
 
-// The mean over directions of what nothing nearby holds off.
+// Returns the mean, over sampled directions, of the ambient light that is not occluded.
 RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts,
                                  Path path) const {
   const LobeSampling points = lightSampling(depth, options_.ambientSamples, path.sample);
@@ -254,12 +255,8 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughp
     const LobeSampling points = lightSampling(depth, soft ? options_.lightSamples : 1, path.sample);
     for (std::uint32_t k = 0; k < points.count; ++k) {
       const LightPoint point{points.count == 1, lightPoint(path.number, points, number, k)};
-      LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading, point);
-      if (effects_.has(Effect::fog)) {
-        const Ray& ray = arrival.shadowRay;
-        const Vec3d way = ray.origin + ray.direction - surfel.position;
-        arrival.radiance = arrival.radiance * leftOfLight(scene_.fog, light, way);
-      }
+      const LightArrival arrival =
+          arrivalFromLight(scene_, effects_, surfel, light, options_.shading, point);
 
       const double largest = maxComponent(arrival.radiance);
       if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;

@@ -120,5 +120,4 @@ inline bool isHidden(const Chunk& chunk, std::size_t slot) {
   return chunk.has(Feature::transmission) && (chunk.surfels.flags[slot] & kHidden) != 0;
 }
 
-// Into three columns of a row.
 }  // namespace whit::reference

@@ -35,7 +35,7 @@ inline RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel
   return light + sky * surfel.lobe * (RgbD(1.0) - mirrorOf(material, effects, surfel)) * blurred;
 }
 
-// Emission, and ambient light that nothing is looked for to hold off.
+// Emission, and ambient light in frames that do not test it for occlusion.
 inline RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
   RgbD radiance;
   if (effects.has(Effect::emission)) {

@@ -6,7 +6,7 @@
 
 #include "core/image.h"
 #include "core/index.h"
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 
 namespace whit {
 

@@ -1,6 +1,6 @@
 // Adaptive sampling (--adaptive): a frame in several passes. The center of every pixel is traced
 // first; where that picture has edges, probe samples; and where these differ, all samples
-// (sampling/sample_pattern.h). What happens to a pixel in the later passes depends on whole
+// (sampling/adaptive_pixels.h). What happens to a pixel in the later passes depends on whole
 // pictures of the earlier ones and on nothing else, so that the result is the same for any tiles
 // and threads. Channels are those of the centers.
 #pragma once

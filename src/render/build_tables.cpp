@@ -42,7 +42,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (m.reflectsBlurredSky(effects)) flags |= kMaterialBlursSky;
   if (m.isLayered(effects)) flags |= kMaterialLayered;
-  if (m.covers(effects)) flags |= kMaterialCovers;
+  if (m.dimsBelow(effects)) flags |= kMaterialDimsBelow;
   if (m.mirrorsByLobe(effects)) flags |= kMaterialMirrorsByLobe;
   if (m.coat) flags |= kMaterialCoated;
   if (m.isUnderCoat(effects)) flags |= kMaterialIsUnderCoat;
@@ -255,7 +255,7 @@ void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
   // Rays find the albedo of lobes that they sample, and the table takes time to make.
   const bool looksUp = std::ranges::any_of(scene.materials, [&](const Material& m) {
-    return m.covers(effects) && !m.scatters(effects);
+    return m.dimsBelow(effects) && !m.scatters(effects);
   });
   if (looksUp) tables.lobes = &lobeTable();
   tables.sky = skyTable(scene.sky, effects);

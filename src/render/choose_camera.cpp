@@ -14,6 +14,10 @@ Camera aimed(Camera camera, const Vec3d& origin, const RenderOptions& options) {
     throwUsage("--fov and --ortho: camera '" + camera.name +
                "' has a matrix k or another projection than \"perspective\"");
   }
+  if (options.fov && !options.ortho && camera.orthographicHeight > 0) {
+    throwUsage("--fov: camera '" + camera.name +
+               "' is orthographic and has no field of view; --ortho 0 makes it perspective");
+  }
   forEachCameraOption([&](auto option, auto member) {
     if (options.*option) camera.*member = memberOf(*(options.*option), origin);
   });

@@ -25,8 +25,8 @@ void sizeDisplay(Film& film);
 // outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
 Film makeFilm(const Scene& scene, const RenderOptions& options,
               std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
-// The standard errors of the film's pixels, each the root of the mean square of those around it.
-// By itself a pixel whose few samples all missed the light would claim to be exact.
+// Replaces the standard error of each pixel by the root mean square over the pixels around it,
+// because a pixel whose few samples all missed the light has an error of 0.
 void poolErrors(Film& film);
 inline constexpr int kPoolReach = 2;  // pixels to each side, within the film's window
 // Shows the background of the options where the film was asked for display codes.

@@ -12,7 +12,7 @@
 #include "render/frame_stats.h"
 #include "render/sample_sums.h"
 #include "render/stage_observer.h"
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 
 namespace whit {
 
@@ -32,6 +32,8 @@ struct FrameHooks {
 
 // Packed pixels (core/image.h), which a worker takes a list at a time.
 using PixelLists = std::vector<std::vector<std::uint32_t>>;
+// Number of entries behind the end of a list, because kernels read whole vectors of pixels.
+inline constexpr std::size_t kListPadding = 2 * kBlock;
 
 // Says which part of a picture is traced. The default is all samples of the film's pixels; with
 // --adaptive only the samples that are needed are traced.

@@ -46,7 +46,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::vertexColors, e.has(Effect::vertexColors))
       .with(Feature::sky, e.has(Effect::sky))
       .with(Feature::glossy, e.has(Effect::glossy))
-      .with(Feature::lobes, any([&](const Material& m) { return m.covers(e); }))
+      .with(Feature::lobes, any([&](const Material& m) { return m.dimsBelow(e); }))
       .with(Feature::roughnessMaps, e.has(Effect::glossy) && e.has(Effect::textures) &&
                                         any([](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::occlusionMaps, e.has(Effect::textures) && any([](const Material& m) {
@@ -318,12 +318,13 @@ class Planner {
     }
 
     // Primary rays and the impulses of mirrors and glass are coherent at first; Embree then
-    // traverses packets as frustums, to the same bits. Samples of lobes never are: told so, frames
-    // with 8 of them took 0.7 of the time. Otherwise Embree leads the rays of a packet one by one.
-    // That is slower where the BVH is so small that all rays visit most of it anyway: there even
-    // deep impulses count as coherent (whitted takes 0.93 of the time, glass with its 38,000
-    // triangles 1.2 times as long). Sorting rays by origin and direction before they are packed
-    // gains nothing on AVX2 and AVX-512 (glass, whitted, tiles of 32 to 256).
+    // traverses packets as frustums, to the same bits. Samples of lobes never are: declaring them
+    // incoherent reduced the time of frames with 8 of them to 0.7. Embree leads the rays of an
+    // incoherent packet through the BVH one by one. That is slower where the BVH is so small that
+    // all rays visit most of it anyway: there even deep impulses count as coherent (whitted takes
+    // 0.93 of the time, glass with its 38,000 triangles 1.2 times as long). Sorting rays by origin
+    // and direction before they are packed gains nothing on AVX2 and AVX-512 (glass, whitted, tiles
+    // of 32 to 256).
     constexpr std::size_t kFewSurfaces = 1000;
     const std::size_t surfaces = scene_.triangles.size() + scene_.instances.size();
     plan_.coherentDepth = surfaces <= kFewSurfaces ? 10 : 4;

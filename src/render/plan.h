@@ -1,6 +1,6 @@
 // The plan of a frame: the list of steps that run. Made once from what the scene calls for and what
-// the options ask for; nothing in a frame asks again. What walks a frame (render/tile_tracer.h),
-// times it, looks on, lists it (whit info), benchmarks or probes it, walks these lists.
+// the options ask for; nothing in a frame asks again. The tracer (render/tile_tracer.h), the
+// observers, `whit info` and the benchmarks all walk these lists.
 #pragma once
 
 #include <algorithm>

@@ -71,7 +71,9 @@ EffectSet builtIn(const Plan& plan) {
 
 Plan planOf(const Scene& scene, const RenderOptions& options) {
   if (options.sphereSegments > 0 && scene.effects.has(Effect::spheres)) {
-    throwUsage("sphere-segments is taken while a scene is loaded: this one has exact spheres");
+    throwUsage(
+        "--sphere-segments takes effect when a scene is loaded; this scene was loaded with exact "
+        "spheres, so load it again");
   }
   chooseSimd(options.simd);
   return makePlan(scene, options);
@@ -86,14 +88,14 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   plan_ = planOf(scene, options);
   const int threads = scheduler_.threads();
   accel_.emplace(scene, options, plan_.effects, threads, progress);
-  lookAround();
+  findSurroundings();
   tables_ = buildTables(scene, plan_.effects, options.shading, threads);
   machine_ = {simd::chosenTarget(), accel_->description(), accel_->packet(), threads};
   buildMs_ = stopwatch.ms();
 }
 
-// Computes everything that follows from the positions of geometry, cameras and lights.
-void Renderer::lookAround() {
+// Finds out whether the cameras stand in a closed scene, and where its dielectrics are.
+void Renderer::findSurroundings() {
   accel_->setEnclosed(false);
   lookedFrom_.reset();
   enclosed_ = options_.robust && options_.retry && isEnclosed(scene_, *accel_);
@@ -103,7 +105,7 @@ void Renderer::lookAround() {
 void Renderer::sceneMoved() {
   if (scene_.motion.ofGeometry) {
     accel_->sceneMoved();
-    lookAround();
+    findSurroundings();
     refreshInstances(scene_, tables_);
   }
   if (scene_.motion.ofGeometry || scene_.motion.ofLights()) shadingChanged();
@@ -114,7 +116,7 @@ std::uint64_t Renderer::memoryBytes() const {
          adaptive_.bytes();
 }
 
-CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
+CameraFrame Renderer::prepareView(const Camera& camera, const Film& film) {
   if (enclosed_ && lookedFrom_ != camera.eye) {
     lookedFrom_ = camera.eye;
     accel_->setEnclosed(false);
@@ -146,7 +148,7 @@ Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
   sizeDisplay(film);
 
   Frame frame;
-  frame.constants = constantsOf(lookFrom(request.camera, film));
+  frame.constants = constantsOf(prepareView(request.camera, film));
   frame.samples = request.pattern ? *request.pattern : pattern();
   frame.endSample = frame.samples.size();
   if (request.sums) {

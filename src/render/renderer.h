@@ -72,7 +72,7 @@ class Renderer {
   void shadingChanged();
 
   // Call after cameras of the scene were changed.
-  void camerasChanged() { lookAround(); }
+  void camerasChanged() { findSurroundings(); }
 
   // Call after moveScene(). Meshes that stand still keep their acceleration structure.
   void sceneMoved();
@@ -85,9 +85,10 @@ class Renderer {
   const Machine& machine() const { return machine_; }
   Scheduler& scheduler() { return scheduler_; }
 
-  // The camera for a film of that size, and the media around it. Rays that find nothing are retried
-  // if the eye, too, is where the scene is closed: outside, most of them find nothing for good.
-  CameraFrame lookFrom(const Camera& camera, const Film& film);
+  // Prepares for frames by this camera: decides whether rays that find nothing are retried, and
+  // fits the earlier view to the film's size. Returns the camera and the media around it. (Outside
+  // of a closed scene, where most such rays find nothing for good, retries would cost too much.)
+  CameraFrame prepareView(const Camera& camera, const Film& film);
   FrameConstants constantsOf(const CameraFrame& camera) const;
 
   double buildMs() const { return buildMs_; }  // acceleration structure and tables
@@ -98,7 +99,7 @@ class Renderer {
   Frame frameOf(const TraceRequest& request, bool adaptively);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
-  void lookAround();
+  void findSurroundings();
 
   const Scene& scene_;
   RenderOptions options_;

@@ -7,8 +7,8 @@ namespace whit {
 
 double SampleSum::standardError(int samples) const {
   if (samples < 2) return kInfinity;
-  const double n = samples, mean = (total.x + total.y + total.z) / (3 * n);
-  return std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1));
+  const double n = samples, squaresOfMean = dot(total, total) / (3 * n * n);
+  return std::sqrt(std::max(squares / n - squaresOfMean, 0.0) / (n - 1));
 }
 
 double SampleSums::relativeError(int samples) const {

@@ -10,9 +10,9 @@ namespace whit {
 
 struct SampleSum {
   RgbD total;          // sum in the order of the pattern
-  double squares = 0;  // sum of squares of the samples' mean channels, linear radiance
-  // The standard error of the mean of `samples` samples, as if they were independent; infinite for
-  // one sample.
+  double squares = 0;  // sum over the samples of the mean of r^2, g^2 and b^2, linear radiance
+  // The standard error of the mean of `samples` samples, as if they were independent: the root mean
+  // square of those of r, g and b. Infinite for one sample.
   double standardError(int samples) const;
 };
 
@@ -27,10 +27,10 @@ class SampleSums {
   SampleSum& at(int x, int y) { return sums_[shape_.index(x, y)]; }
   const Crop& window() const { return shape_.window; }
 
-  // The standard error of the mean of `samples` samples a pixel, 2 or more: its mean over the
-  // window, as a share of the window's mean radiance (of the mean channel). As if samples were
-  // independent; spread evenly, as those of a pattern are, they are off by less. Not its root mean
-  // square, which a few bright samples decide. 0 for black.
+  // Returns the standard error of a pixel's mean of `samples` samples, 2 or more, as the mean over
+  // the window divided by the window's mean radiance (of the mean channel); 0 for a black window.
+  // It takes samples for independent, so it overestimates the error of evenly spread ones. It is no
+  // root mean square, because a few bright samples would decide that.
   double relativeError(int samples) const;
 
  private:

@@ -1,5 +1,5 @@
 // Deals the pixels of a frame to workers: tile by tile, each to the next worker that is free, or,
-// with --batch frame, all at once, a batch a worker and everyone in the same stage.
+// with --batch frame, one batch per worker, with all workers in the same stage.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,6 @@
 #include "render/tile_tracer.h"
 
 namespace whit {
-
-// Number of entries behind the end of a list, because kernels read whole vectors of pixels.
-inline constexpr std::size_t kListPadding = 2 * kBlock;
 
 // The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
 // other make up 2x2, 4x2 or 4x4 pixels, the most coherent packet there is. Tiles that the window

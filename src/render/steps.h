@@ -24,7 +24,8 @@ std::uint64_t countNonFinite(const Chunk& c);
 // it drops what makes their trees too wide.
 void limitRays(Chunk& c);
 
-// Stores all channels of the surfels of depth 0 except the ray counts.
+// Stores the channels of ChannelValues (core/channels.h) for the surfels of depth 0: all channels
+// but the ray counts, alpha and error.
 void keepChannels(Chunk& c);
 
 // Rays are counted where they are traced, and the counts follow the way of the radiance: each ray
@@ -39,7 +40,7 @@ void startEnds(Chunk& c);
 void returnEnds(Chunk& c);
 void keepEnds(Chunk& c);
 
-// The share of the background that is seen straight through surfaces (RadianceColumns::clearR) goes
+// The share of the background that is seen straight through surfaces (RadianceColumns::clear) goes
 // the same way. The background takes the place of the sky there.
 void startAlpha(Chunk& c);
 void markStraight(Chunk& c);  // children that go on as their parents

@@ -309,9 +309,8 @@ void TileTracer::addSample(const Frame& frame) {
   // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
   for (const auto i : indices(n)) {
-    const auto [r, g, b] = RgbD(radiance.rgb.at(i));
-    const double mean = (r + g + b) / 3;
-    sums_[i].squares += mean * mean;
+    const RgbD sample(radiance.rgb.at(i));
+    sums_[i].squares += dot(sample, sample) / 3;
   }
 }
 
@@ -373,7 +372,7 @@ void TileTracer::traceSample(const Watch& watch) {
 void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Watch& watch) {
   const std::span<const std::uint32_t> pixels = chunk_.pixels;
   std::vector<std::uint32_t> again;
-  again.reserve(slots.size() + 2 * kBlock);
+  again.reserve(slots.size() + kListPadding);
   for (const std::uint32_t slot : slots) again.push_back(pixels[slot]);
 
   // The samples of the other pixels are put aside meanwhile.

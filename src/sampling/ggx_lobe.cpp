@@ -57,7 +57,7 @@ LobeTable makeTable() {
     const double roughness = static_cast<double>(row) / (kLobeSteps - 1);
     for (int column = 0; column < kLobeSteps; ++column) {
       const double root = column / (kLobeSteps - 1.0);
-      const double cosine = std::max(root * root, 1e-4);
+      const double cosine = std::max(root * root, kLeastCosine);
       const Albedo albedo = integrate(cosine, roughness);
       const std::size_t i = row * kLobeSteps + column;
       table.all[i] = static_cast<float>(albedo.all);

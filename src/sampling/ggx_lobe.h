@@ -10,6 +10,10 @@
 
 namespace whit {
 
+// The view's cosine counts as no less than this: the lobe divides by it, and bent normals can make
+// it 0 or negative.
+inline constexpr double kLeastCosine = 1e-4;
+
 // A normal of the microsurface, drawn from those that can be seen along `view`, each as often as it
 // is seen (Heitz 2018, "Sampling the GGX distribution of visible normals", JCGT 7(4); by the
 // spherical cap of Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps",
@@ -18,8 +22,8 @@ namespace whit {
 // is smooth and the result z.
 Vec3d visibleNormal(const Vec3d& view, double alpha, double cosine, double sine, double v);
 
-// G2 / G1: the share of what a visible facet reflects that no other facet holds off. `nv` and `nl`
-// are the cosines of view and reflected ray to the normal.
+// G2 / G1: the share of the light reflected by a visible facet that no other facet shadows. `nv`
+// and `nl` are the cosines of view and reflected ray to the normal.
 double passingShare(double nv, double nl, double alpha);
 
 // Smith's G1: the share of a facet that is seen at this cosine to the surface's normal. Of what a

@@ -71,8 +71,8 @@ inline constexpr const char* kGroundShadowName = "ground shadow";
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 
 inline constexpr float kMinRoughness = 0.03f;
-// With this one the grazing reflectance of a lobe fades out below a reflectance of 4 %, as that of
-// a common dielectric does, so that a lobe of 0 reflects nothing.
+// The default of Material::grazingRatio. With it, the grazing reflectance of a lobe is below 1 if
+// its reflectance is below 4 %, that of a common dielectric, and a lobe of 0 reflects nothing.
 inline constexpr float kGrazingRatio = 25;
 // A lobe of no more than this alpha reflects the scene by a single impulse: it is about as wide as
 // a pixel, 0.002 radians to either side.
@@ -108,7 +108,8 @@ struct Material {
   Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
   std::int32_t emissionMap = kNoTexture;  // color, or radiance where it goes beyond 1
   std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
-  // Indirect light counts times this map, as if something nearby held the rest off. Lights do not.
+  // The map multiplies indirect light, as if nearby geometry occluded the rest. It does not affect
+  // lights.
   std::int32_t occlusionMap = kNoTexture;  // data, channel r
   // These maps are looked up with Mesh::secondUvs.
   bool emissionBySecondUvs = false, normalBySecondUvs = false, occlusionBySecondUvs = false;
@@ -128,8 +129,9 @@ struct Material {
   Rgb mirror{0, 0, 0};
   std::int32_t mirrorMap = kNoTexture;  // color, multiplies `mirror`
   Rgb mirrorGrazing{0, 0, 0};
-  // What lies below gets the light that the mirror leaves, in place of all that there is for it.
-  // False of a mirror that a scene file states, unless it states this as well.
+  // The mirror is a coat: layers below it get only the light that it does not reflect. Without it,
+  // mirror and lower layers share the light only where their sum would exceed 1. A mirror in a
+  // scene file is a coat only if the file states so.
   bool coat = false;
 
   // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric, or is a
@@ -176,14 +178,14 @@ struct Material {
   // In frames with these effects the facets of the interface reflect in place of a lobe.
   bool hasFrostedInterface(EffectSet effects) const { return frosts(effects) && boundsMedium(); }
   // In frames with these effects the lobe takes light from what lies below it.
-  bool covers(EffectSet effects) const {
+  bool dimsBelow(EffectSet effects) const {
     const bool isHighlight = !glossyReflection && (hasMirror() || hasTransmission());
     return (effects.has(Effect::glossy) && hasGlossy() && !isHighlight) ||
            hasFrostedInterface(effects);
   }
   // In frames with these effects lamps reach the lobe through a coat.
   bool isUnderCoat(EffectSet effects) const {
-    return coat && effects.has(Effect::mirror) && hasMirror() && covers(effects) &&
+    return coat && effects.has(Effect::mirror) && hasMirror() && dimsBelow(effects) &&
            !hasFrostedInterface(effects);
   }
   // In frames with these effects the lobe reflects the blurred sky.
@@ -208,7 +210,7 @@ struct Material {
     const float most = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
     const float color = maxComponent(diffuse);
     const bool limits = most > 0 && (coat || most + color > 1);
-    return covers(effects) || (color > 0 && (hasTransmission() || limits));
+    return dimsBelow(effects) || (color > 0 && (hasTransmission() || limits));
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }

@@ -50,7 +50,8 @@ struct Segment {
   RayKind kind = RayKind::primary;
   std::size_t begin = 0, end = 0;
 };
-// The kinds that a queue may hold: at depth 0 primary rays, below it reflections, then refractions.
+// A queue of depth 0 holds primary rays; deeper ones hold the kinds of kImpulseKinds, in that
+// order.
 inline constexpr std::size_t kSegmentLimit = kRayKindCount;
 
 struct RayTally {

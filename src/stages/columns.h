@@ -106,10 +106,10 @@ struct Columns3 {
 // vectors; `parent` is the slot at the depth above (a pixel's at depth 0) that gets weight *
 // radiance; `throughput` bounds what the ray's radiance is multiplied with on its way to the eye;
 // `media` is the stack of dielectrics it travels in, a byte each, the one entered last in the low
-// byte; `path` is its number (sampling/random_streams.h), where lobes are sampled; `straight` is 1
-// where a child goes on along its camera ray (see Chunk::isStraight()); `cone` is the width of its
-// cone (RayCone) where it starts, for mip levels: the spread is that of the camera's pixels at
-// every depth.
+// byte; `path` is its number (sampling/random_streams.h), in frames that draw random numbers;
+// `straight` is 1 where a child goes on along its camera ray (see Chunk::isStraight()); `cone` is
+// the width of its cone (RayCone) where it starts, for mip levels: the spread is that of the
+// camera's pixels at every depth.
 #define WHIT_RAY_COLUMNS(X, X3)         \
   WHIT_XYZ(X3, org, always)             \
   WHIT_XYZ(X3, dir, always)             \
@@ -122,9 +122,9 @@ struct Columns3 {
   X(float, cone, cones)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
-// `instance` indexes Scene::instances, kMiss in the world; `alsoCrossed` are the dielectrics whose
-// faces lie in the very place of the one that was hit: kCrossedBits each, medium * 2 + (1 if its
-// outside is hit), 0 for none; with kSharesPlace where any surface does.
+// `instance` indexes Scene::instances, kNoInstance in the world; `alsoCrossed` are the dielectrics
+// whose faces lie in the very place of the one that was hit: kCrossedBits each, medium * 2 + (1 if
+// its outside is hit), 0 for none; with kSharesPlace where any surface does.
 inline constexpr int kCrossedBits = 10;
 inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 #define WHIT_HIT_COLUMNS(X, X3)         \
@@ -140,8 +140,8 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // must start (hard cases H1-H4), and `viewOffset`, on the viewer's side, how far back along the
 // viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
 // the material's emission, mirror and transmission are multiplied by the columns of these names;
-// `coverage` is the share of the surface that is there: of all that it sends so much arrives, and
-// through the rest light goes straight on; `occlusion` multiplies indirect light; `shadowOffset` is
+// `coverage` is the opacity: it multiplies everything that the surface sends, and the rest of the
+// light passes straight through; `occlusion` multiplies indirect light; `shadowOffset` is
 // added to the position where shadow rays start; `cone` is the width that the ray's cone has
 // reached, and its children's start with; `lobe` is the share that the glossy lobe reflects of the
 // light that the mirror leaves (stages/shading_tables.h: kMaterialLayered).

@@ -36,6 +36,8 @@ struct alignas(64) MaterialRecord {
   std::int32_t coverageMap;
 };
 static_assert(sizeof(MaterialRecord) == 128);
+// Flags of MaterialRecord::flags. Those that tell of a function of Material hold its result for the
+// effects of the plan.
 inline constexpr std::uint32_t kMaterialReflects = 1u << 0;
 inline constexpr std::uint32_t kMaterialTransmits = 1u << 1;
 inline constexpr std::uint32_t kMaterialEmits = 1u << 2;
@@ -54,25 +56,21 @@ inline constexpr std::uint32_t kMaterialIsPartlyThere = 1u << 11;
 inline constexpr std::uint32_t kMaterialMapped = 1u << 12;
 // Under --indirect its diffuse color reflects the scene, in place of ambient light.
 inline constexpr std::uint32_t kMaterialDiffuses = 1u << 13;
-// Material::reflectsBlurredSky() in such frames.
-inline constexpr std::uint32_t kMaterialBlursSky = 1u << 15;
-// Material::isLayered(), covers() and mirrorsByLobe() in such frames.
-inline constexpr std::uint32_t kMaterialLayered = 1u << 14;
-inline constexpr std::uint32_t kMaterialCovers = 1u << 20;
-inline constexpr std::uint32_t kMaterialMirrorsByLobe = 1u << 21;
-// Material::coat, and isUnderCoat() in such frames.
-inline constexpr std::uint32_t kMaterialCoated = 1u << 22;
-inline constexpr std::uint32_t kMaterialIsUnderCoat = 1u << 23;
-// Material::frosts() and hasFrostedInterface() in such frames.
-inline constexpr std::uint32_t kMaterialFrosts = 1u << 24;
-inline constexpr std::uint32_t kMaterialFrostedInterface = 1u << 25;
+inline constexpr std::uint32_t kMaterialLayered = 1u << 14;   // Material::isLayered()
+inline constexpr std::uint32_t kMaterialBlursSky = 1u << 15;  // Material::reflectsBlurredSky()
 inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16;
 inline constexpr std::uint32_t kMaterialOcclusionBySecondUvs = 1u << 17;
-// Material::alphaByVertex.
-inline constexpr std::uint32_t kMaterialAlphaByVertex = 1u << 26;
-// Maps or vertex colors multiply it.
+// Maps or vertex colors multiply the mirror or the transmission.
 inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18;
 inline constexpr std::uint32_t kMaterialVariesTransmission = 1u << 19;
+inline constexpr std::uint32_t kMaterialDimsBelow = 1u << 20;      // Material::dimsBelow()
+inline constexpr std::uint32_t kMaterialMirrorsByLobe = 1u << 21;  // Material::mirrorsByLobe()
+inline constexpr std::uint32_t kMaterialCoated = 1u << 22;         // Material::coat
+inline constexpr std::uint32_t kMaterialIsUnderCoat = 1u << 23;    // Material::isUnderCoat()
+inline constexpr std::uint32_t kMaterialFrosts = 1u << 24;         // Material::frosts()
+// Material::hasFrostedInterface()
+inline constexpr std::uint32_t kMaterialFrostedInterface = 1u << 25;
+inline constexpr std::uint32_t kMaterialAlphaByVertex = 1u << 26;  // Material::alphaByVertex
 
 // This flag marks a texture whose texels are not interpolated.
 inline constexpr std::uint32_t kNearestTexel = 1 << 16;

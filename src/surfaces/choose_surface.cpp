@@ -81,12 +81,8 @@ void keepNearest(const Scene& scene, const Ray& ray, std::vector<SurfaceHit>& hi
 
 // Returns true if light hits `a` rather than `b`, by the order of chooseSurface().
 bool comesFirst(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
-  if (a.opaque != b.opaque) return a.opaque;
-  if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
-
-  const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
-  if (priorityA != priorityB) return priorityA > priorityB;
-  return a.rank > b.rank;
+  return preferenceOf(scene, a.opaque, a.medium, a.rank) >
+         preferenceOf(scene, b.opaque, b.medium, b.rank);
 }
 
 // Adds a dielectric to those that light crosses together with the chosen one, packed as in
@@ -117,7 +113,8 @@ std::vector<SurfaceHit> coplanarHits(const Scene& scene, EffectSet effects, cons
     const bool isFound = id == idOf(found);
     if (!isFound && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
 
-    SurfaceHit surface{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false, true, rank};
+    SurfaceHit surface{
+        .candidate = {id.triangle, id.instance, hit->u, hit->v}, .hit = *hit, .rank = rank};
     if (effects.has(Effect::transmission)) {
       const std::uint32_t material = scene.triangles[id.triangle].material;
       surface.medium = scene.mediumOfMaterial[material];
@@ -184,9 +181,11 @@ Candidate chooseSphere(const Scene& scene, EffectSet effects, const Candidate& f
     }
 
     const std::uint32_t material = scene.triangles[id.triangle].material;
-    const SurfaceHit surface{{id.triangle, id.instance, u, v},         hit,
-                             scene.mediumOfMaterial[material],         false,
-                             !scene.materials[material].passesLight(), rank++};
+    const SurfaceHit surface{.candidate = {id.triangle, id.instance, u, v},
+                             .hit = hit,
+                             .medium = scene.mediumOfMaterial[material],
+                             .opaque = !scene.materials[material].passesLight(),
+                             .rank = rank++};
 
     if (!best || comesFirst(scene, surface, *best)) best = surface;
   }

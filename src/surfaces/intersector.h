@@ -20,8 +20,8 @@ struct Ray {
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
 
 struct Candidate {
-  std::uint32_t triangle = kNoHit;  // index into Scene::triangles
-  std::uint32_t instance = kNoHit;  // index into Scene::instances, kNoHit: in the world
+  std::uint32_t triangle = kNoHit;       // index into Scene::triangles
+  std::uint32_t instance = kNoInstance;  // index into Scene::instances, or kNoInstance in the world
   // Barycentric weights of corners 1 and 2 as the intersector saw them; only a hint.
   double u = 0, v = 0;
 };
@@ -46,7 +46,7 @@ inline Ray rayOf(const Chunk& chunk, std::size_t slot) {
 
 inline Candidate candidateOf(const Chunk& chunk, std::size_t slot) {
   const HitRow h = HitRow::at(chunk.hits, slot);
-  return {h.triangle, chunk.has(Feature::instances) ? h.instance : kNoHit, h.u, h.v};
+  return {h.triangle, chunk.has(Feature::instances) ? h.instance : kNoInstance, h.u, h.v};
 }
 
 }  // namespace whit

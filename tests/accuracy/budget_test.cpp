@@ -181,13 +181,15 @@ TEST(Budgets, TellTheErrorOfThePicture) {
 }
 
 // Each pixel of the view of chooseFor() has a shining square that covers this share of it,
-// somewhere in the pixel, before black. So all pixels have the radiance share * `radiance`.
-Scene lattice(double share, float radiance) {
+// somewhere in the pixel, before a sky of the radiance `behind`.
+Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
   SceneDescription d;
   d.name = "lattice";
   d.materials.resize(1);
   d.materials[0].diffuse = Rgb(0.0f);
-  d.materials[0].emission = Rgb(radiance);
+  d.materials[0].emission = radiance;
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = behind;
 
   Mesh squares;
   squares.materials = {0};
@@ -219,6 +221,26 @@ Scene lattice(double share, float radiance) {
   return Scene::finalize(std::move(d), warnings);
 }
 
+// The root mean square of codes by which an image differs from one color.
+double codesFrom(const Rgb& color, const Image& image) {
+  Image even = image;
+  even.pixels.assign(even.pixels.size(), color);
+  return 255 * std::pow(10, -compareImages(image, even).psnrDb / 20);
+}
+
+// Red and green squares of equal brightness: the mean of red, green and blue has no noise.
+TEST(Targets, CountTheNoiseOfEachColor) {
+  const Rgb red{0.8f, 0.05f, 0.05f}, green{0.05f, 0.8f, 0.05f};
+  RenderOptions options;
+  options.spp = 16;
+  const Scene scene = lattice(0.5, red, green);
+  const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
+
+  const double error = codesFrom((red + green) / 2.0f, chosen.image);
+  EXPECT_GT(error, 1);
+  EXPECT_LE(error, chosen.receipt.high) << receiptText(chosen.receipt, "");
+}
+
 // The error against the closed form lies below the receipt's bound, or the receipt has none. Where
 // one sample in 256 hits a square, 16 samples that all miss say nothing about their pixel's error.
 TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
@@ -226,12 +248,9 @@ TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   RenderOptions options;
   options.spp = 16;
   for (const double share : {0.5, 1.0 / 256}) {
-    const Scene scene = lattice(share, static_cast<float>(kGray / share));
+    const Scene scene = lattice(share, Rgb(static_cast<float>(kGray / share)));
     const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
-
-    Image truth = chosen.image;
-    truth.pixels.assign(truth.pixels.size(), Rgb(static_cast<float>(kGray)));
-    const double error = 255 * std::pow(10, -compareImages(chosen.image, truth).psnrDb / 20);
+    const double error = codesFrom(Rgb(static_cast<float>(kGray)), chosen.image);
 
     const Receipt& receipt = chosen.receipt;
     EXPECT_EQ(std::isinf(receipt.high), share < 0.1) << receiptText(receipt, "");

@@ -25,7 +25,7 @@ class BenchTile {
         options_(timed(choices, target)),
         renderer_(scene_, options_),
         film_(makeFilm(scene_, options_)),
-        constants_(renderer_.constantsOf(renderer_.lookFrom(camera(), film_))),
+        constants_(renderer_.constantsOf(renderer_.prepareView(camera(), film_))),
         work_(plan(), kTileRays) {
     sizeDisplay(film_);
     work_.reserveCodes(kTileRays);

@@ -1,6 +1,6 @@
 // Files that are written beside other work: they are written in order and one at a time, errors
 // reach the caller, and an interruption waits for the current file.
-#include "output/film_pipe.h"
+#include "output/background_writer.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -52,7 +52,7 @@ TEST(Render, WithoutOutputWritesTheScenesName) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(hasText(refused.err, "'other.png' is there"));
+  EXPECT_TRUE(hasText(refused.err, "'other.png' exists"));
   EXPECT_EQ(readFile(folder / "other.png"), "a texture");
   EXPECT_EQ(outcome.out, "");  // standard output is no terminal
   EXPECT_TRUE(hasText(outcome.err, "wrote tiny.png"));

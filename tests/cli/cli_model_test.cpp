@@ -171,6 +171,10 @@ TEST_F(Models, TheirCamerasHaveMembersToSet) {
   const auto narrow = codesOf(model_, {"--set", pointer + "/fov=20"});
   EXPECT_EQ(narrow, codesOf(model_, {"--fov", "20"}));
   EXPECT_NE(narrow, codesOf(model_));
+
+  // An orthographic camera becomes perspective.
+  const std::string parallel = pointer + "/orthographicHeight=3";
+  EXPECT_EQ(narrow, codesOf(model_, {"--set", parallel, "--fov", "20", "--ortho", "0"}));
 }
 
 TEST_F(Models, ACropIsExposedAsTheWhole) {

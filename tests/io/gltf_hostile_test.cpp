@@ -30,6 +30,9 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "#/asset/version: expected 2.0, found \"1.0\""},
       {"\"version\":\"2.0\"", "\"version\":\"3.0\"",
        "#/asset/version: expected 2.0, found \"3.0\""},
+      {"\"version\":\"2.0\"", "\"version\":\"2.1\",\"minVersion\":\"2.1\"",
+       "#/asset/minVersion: expected at most 2.0, which is the version that can be read, found "
+       "\"2.1\""},
       {"\"asset\"", "\"assets\"", "#: expected a member \"asset\""},
 
       // Accessors.

@@ -61,9 +61,11 @@ TEST_F(GltfOdd, DataMayBeOfAnyTypeAndSpelling) {
   const std::string whole = b.json(oneMesh(triangle(b)));
   const std::string usual = "data:application/octet-stream;base64,";
 
-  for (const char* other : {"data:;base64,", "DATA:model/gltf-buffer;base64,",
+  for (const char* other : {"data:;base64,", "DATA:model/gltf-buffer;base64,", "DATA:;BASE64,",
                             "data:application/octet-stream;charset=x;base64,"}) {
-    EXPECT_EQ(triangleCount(loadText(replaced(whole, usual, other))), 1u) << other;
+    const SceneDescription scene = loadText(replaced(whole, usual, other));
+    ASSERT_EQ(triangleCount(scene), 1u) << other;
+    EXPECT_EQ(cornerOf(scene, 0, 0, 1), Vec3d(1, 0, 0)) << other;
   }
 
   // Bytes may be escaped; these are the letters AAAA.
@@ -113,6 +115,12 @@ TEST_F(GltfOdd, TheFirstVersionIsRefused) {
             "3 m.gltf#/asset/version: expected 2.0, found \"1.0\"");
   EXPECT_EQ(errorOfFile(save("m.glb", std::string("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20))),
             "3 m.glb: byte 4: expected glTF 2, found 1");
+}
+
+TEST_F(GltfOdd, LaterVersionsThatReadersOfThisOneUnderstandAreRead) {
+  for (const char* least : {"2.0", "1.0"}) {
+    loadText(std::string(R"({"asset":{"version":"2.1","minVersion":")") + least + "\"}}");
+  }
 }
 
 // Two parts of one strip are joined by repeated corners, whose triangles have no area.

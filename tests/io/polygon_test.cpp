@@ -90,6 +90,21 @@ TEST(Polygon, CornersOnALineAreKept) {
   expectCovered({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}}, {0, 0, 4});
 }
 
+// The corners lay on the sides of a simple polygon and were rounded to integers, so that two sides
+// cross within a sliver.
+TEST(Polygon, RoundedCornersAreNoCrossing) {
+  Triangles triangles;
+  EXPECT_TRUE(triangulate({{20, 312, 0},
+                           {9, 438, 0},
+                           {-59, 218, 0},
+                           {-23, 49, 0},
+                           {14, -119, 0},
+                           {13, -115, 0},
+                           {13, -110, 0},
+                           {17, 101, 0}},
+                          triangles));
+}
+
 TEST(Polygon, HoleReachedByASeam) {
   // The square of side 4 has a square hole of side 2, which a seam joins to the outline. The seam
   // is traversed twice.
@@ -124,7 +139,10 @@ TEST(Polygon, WhatHasNoOutlineBecomesAFan) {
   for (const std::vector<Vec3d>& p :
        {std::vector<Vec3d>(5, {1, 1, 1}), std::vector<Vec3d>(5, nan),
         // Five corners on a line have no area.
-        std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}, {4, 4, 0}}}) {
+        std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}, {4, 4, 0}},
+        // A five-pointed star drawn in one stroke, and a bow tie with a corner in one of its sides.
+        std::vector<Vec3d>{{0, 3, 0}, {2, -3, 0}, {-3, 1, 0}, {3, 1, 0}, {-2, -3, 0}},
+        std::vector<Vec3d>{{0, 0, 0}, {2, 2, 0}, {2, 1, 0}, {2, 0, 0}, {0, 1, 0}}}) {
     Triangles triangles;
     EXPECT_FALSE(triangulate(p, triangles));
     EXPECT_EQ(triangles.size(), 3u);

@@ -98,6 +98,11 @@ class Arrays(unittest.TestCase):
         assert_array_equal(moved, pixels(placed))
         scene.set_transform("/scene/0", np.eye(4)[:3])
         assert_array_equal(rest, pixels(scene))
+        # The item's own transform is applied first.
+        turn = np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        placed.set_transform("/scene/0", turn)
+        description["scene"][0]["transform"] = {"matrix": (turn @ place)[:3].ravel()}
+        assert_array_equal(pixels(placed), pixels(whit.Scene(description, movable=["/scene/0"])))
 
     def test_vertices_that_move(self):
         mesh = square(name="sheet")

@@ -193,6 +193,30 @@ class Pictures(unittest.TestCase):
                 picture.write(name)
             program("compare", "a.exr", "a.png", "--tolerance", "0.01", "--quiet")
 
+    def test_which_files_have_which_arrays(self):
+        kinds = {"x.exr", "x.depth.exr", "x.depth.png", "x.png", "x.jpg"}
+
+        def files(picture):
+            for name in kinds:
+                picture.write(name)
+            return {name: pathlib.Path(name).read_bytes() for name in kinds}
+
+        def write(array):
+            array[:] = 1
+
+        with temporary_folder():
+            for take, changed in (
+                    (lambda p: p.rgb, {"x.exr"}),
+                    (lambda p: p.rgba, {"x.png", "x.jpg"}),
+                    (lambda p: p["depth"], {"x.exr", "x.depth.exr", "x.depth.png"}),
+                    (lambda p: p["depth.Z"], set())):
+                picture = scene_of().render(size=SIZE, channels=["depth"])
+                png, before = picture.png(), files(picture)
+                write(take(picture))
+                after = files(picture)
+                self.assertEqual({name for name in kinds if before[name] != after[name]}, changed)
+                self.assertEqual(picture.png() != png, "x.png" in changed)
+
     def test_a_mesh_of_trimesh(self):
         """The page's line, with a stand-in that has trimesh's members and kinds of arrays."""
         line = re.search(r"`(whit\.Mesh\(m\.vertices.*?\))`", PAGES[0].read_text())[1]

@@ -58,6 +58,10 @@ class Pickles(unittest.TestCase):
         other.set("/lights/0/intensity", 50)  # the first one is not changed by it
         self.assert_same(scene, restored(scene))
         self.assertTrue((pixels(scene) != pixels(other)).any())
+        for other in copy.copy(scene), copy.deepcopy(scene):
+            other.set_transform("/scene/0", np.diag([1, 0.5, 1, 1]))
+            self.assert_same(scene, restored(scene))
+            self.assertTrue((pixels(scene) != pixels(other)).any())
 
     def test_a_file_is_found_from_another_folder(self):
         with temporary_folder():

@@ -24,7 +24,7 @@ Film filmWithErrors(const Scene& scene, const RenderOptions& options) {
 
 double meanOf(const Rgb& p) { return (double{p.x} + double{p.y} + double{p.z}) / 3; }
 
-// A triangle emits before a black background: the mean of the color channels is 0 or 0.6.
+// A triangle emits before a black background.
 Scene discScene() {
   SceneDescription d;
   d.name = "disc";
@@ -47,9 +47,10 @@ Scene discScene() {
 class ErrorChannel : public testing::TestWithParam<Mode> {};
 
 // The share p of samples that hit the triangle gives the error of a pixel,
-// 0.6 sqrt(p (1 - p) / (n - 1)). The squares of errors are averaged within kPoolReach.
+// r sqrt(p (1 - p) / (n - 1)) for the root mean square r of the triangle's three colors. The
+// squares of errors are averaged within kPoolReach.
 TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
-  constexpr double kRadiance = 0.6;
+  const double radiance = std::sqrt((0.3 * 0.3 + 0.6 * 0.6 + 0.9 * 0.9) / 3);
   const Scene scene = discScene();
   RenderOptions o = smallOptions();
   o.mode = GetParam();
@@ -68,7 +69,7 @@ TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
       for (int j = std::max(y - kPoolReach, 0); j <= std::min(y + kPoolReach, height - 1); ++j) {
         for (int i = std::max(x - kPoolReach, 0); i <= std::min(x + kPoolReach, width - 1); ++i) {
           const double p = double{hits[film.image.index(i, j)]};
-          squares += kRadiance * kRadiance * p * (1 - p) / (o.spp - 1), ++count;
+          squares += radiance * radiance * p * (1 - p) / (o.spp - 1), ++count;
         }
       }
       const double expected = std::sqrt(squares / count);

@@ -8,8 +8,8 @@
 
 namespace whit::test {
 
-// Holds slots 0 to kBlock - 1 of a frame of `scene`, with every effect compiled in, for the target
-// `simd`. Leaves that target chosen.
+// Holds slots 0 to kBlock - 1 of a frame of `scene`, with the columns of every effect, for the
+// target `simd`. Leaves that target chosen.
 class KernelSurfels {
  public:
   KernelSurfels(const Scene& scene, const std::string& simd)

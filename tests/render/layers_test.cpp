@@ -134,6 +134,23 @@ TEST(Layers, BelowAClearcoatGetWhatItLeaves) {
   }
 }
 
+// White paper that lets light through, with a coat and without: all the light that the mirror and
+// the transmission leave is its diffuse color's.
+TEST(Layers, OfACoatedSheetSendOutAllLightAndNoMore) {
+  for (const float mirror : {0.0f, 0.2f}) {
+    Material m = diffuseMaterial(1);
+    m.mirror = m.mirrorGrazing = Rgb(mirror);
+    m.coat = true;
+    m.transmission = Rgb(0.72f);
+    m.thin = true;
+    m.ior = 1;
+    UnderEvenSky sheet(m, 1);
+    for (const bool packets : {false, true}) {
+      EXPECT_NEAR(sheet.mean(0.6, packets), 1, 1e-6) << packets << ' ' << mirror;
+    }
+  }
+}
+
 // A surface of glTF without a diffuse color, with this index of refraction and specularFactor.
 Material bare(float roughness, float ior = 1.5f, float strength = 1, float clearcoat = 0) {
   GltfMaterial m;

@@ -122,9 +122,9 @@ class Browser:
         self.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
         self.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
 
-    def key(self, code, key, kinds=("keyDown", "keyUp"), pause=0.0):
+    def key(self, code, key, kinds=("keyDown", "keyUp"), pause=0.0, **more):
         for kind in kinds:
-            self.call("Input.dispatchKeyEvent", type=kind, code=code, key=key)
+            self.call("Input.dispatchKeyEvent", type=kind, code=code, key=key, **more)
             time.sleep(pause)
 
     def screenshot(self, path):

@@ -13,6 +13,7 @@ from browser import Browser, Server
 
 whit = os.path.abspath(sys.argv[1])
 chess = os.path.join(os.environ.get("WHIT_SOURCE_DIR", os.getcwd()), "scenes", "chess.glb")
+CTRL = 2  # the DevTools protocol's modifier
 keep = sys.argv[2] if len(sys.argv) > 2 else None
 wrong = []
 
@@ -149,6 +150,66 @@ def test_keys_after_controls(browser, server):
     check(browser.run("return document.activeElement === document.body"), "Enter gives all keys to the picture")
 
 
+def test_layouts(browser, server):
+    """On a German keyboard Z and Y change places, and Ü has the place of [."""
+    open_page(browser, server)
+    exposure = browser.run("return whit.settled.options.exposure")
+    changed = f"whit.settled.options.exposure !== '{exposure}'"
+    browser.key("BracketLeft", "ü")
+    browser.wait(changed)
+    browser.key("KeyZ", "y", modifiers=CTRL)
+    browser.key("KeyV", "v")  # is told after the other key
+    browser.wait("whit.settled.view === 'depth'")
+    check(browser.run(f"return {changed}"), "Ctrl+Y is not taken for Ctrl+Z")
+    browser.key("KeyY", "z", modifiers=CTRL)
+    browser.wait(f"!({changed})")
+    check(True, "Ctrl+Z undoes")
+    browser.run("say('view none')")
+    browser.wait("whit.settled.view === 'none'")
+
+
+def test_focus_of_effects(browser, server):
+    """The box that Space has switched keeps the focus, so that Tab goes on from there."""
+    open_page(browser, server)
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; });"
+                "document.querySelector('#effects input:enabled:checked').focus()")
+    name = browser.run("return document.activeElement.name")
+    browser.key("Space", " ", text=" ")
+    browser.wait(f"whit.settled.effects.some(([name, called, on]) => name === '{name}' && !on) && whit.exact")
+    check(browser.run("return document.activeElement.name") == name, "a box keeps the focus after Space")
+    browser.run("say('undo')")
+
+
+def test_lost_release(browser, server):
+    """A drag ends where the pointer comes back without a button."""
+    open_page(browser, server)
+    x, y = middle(browser)
+    browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    browser.mouse("mouseMoved", x + 20, y, button="left", buttons=1)
+    browser.mouse("mouseMoved", x + 60, y)
+    check(browser.run("return fingers.size") == 0, "a drag ends without its pointerup")
+    browser.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
+
+
+def test_no_scene(browser, _):
+    """While scenes are to be chosen from, keys go to their list and not to what it covers."""
+    server = Server(whit, "--quiet")
+    try:
+        browser.open(server.url)
+        browser.wait("typeof whit === 'object' && tables && tables.scenes")
+        browser.key("KeyV", "v")
+        browser.key("Escape", "Escape")
+        browser.call("Input.dispatchKeyEvent", type="keyDown", code="Tab", key="Tab", windowsVirtualKeyCode=9)
+        check(browser.wait("document.activeElement.closest('#scenes')"), "Tab goes to the list of scenes")
+        browser.run("say('scene whitted')")
+        browser.wait("tables.scene === 'whitted' && whit.exact", 120)
+        check(browser.run("return whit.settled.view") == "none", "a key has not changed what is not shown yet")
+        check(browser.run("return getComputedStyle(document.querySelector('aside')).display") != "none",
+              "nor has Esc closed the panel")
+    finally:
+        server.stop()
+
+
 def test_two_shapes(browser, server):
     """A page whose shape differs from that of the picture shows it undistorted, and clicks hit its pixels."""
     open_page(browser, server)
@@ -200,7 +261,7 @@ def test_lost_server(browser, _):
     check(True, "a server that has ended is told")
     second = Server(whit, "whitted", "--quiet", "--port", port)
     try:
-        browser.wait("document.getElementById('error').textContent.includes('has printed last')")
+        browser.wait("document.getElementById('error').textContent.includes('printed last')")
         check(True, "a server that started again has another address")
     finally:
         second.stop()
@@ -249,7 +310,8 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    test_rays(browser, spheres)
+    for test in (test_rays, test_layouts, test_focus_of_effects, test_lost_release, test_no_scene):
+        test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)
     test_lost_server(browser, None)

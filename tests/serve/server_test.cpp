@@ -566,7 +566,7 @@ TEST_F(Serving, ARefusalSaysWhatToDo) {
     return answer ? answer->body : "no answer";
   };
   const std::string restarted = bodyOf("/" + std::string(32, '0') + "/stream");
-  EXPECT_TRUE(hasText(restarted, "open the address that whit serve has printed last"));
+  EXPECT_TRUE(hasText(restarted, "open the address that whit serve printed last"));
   const std::string other = bodyOf(root_, {{"Host", "box.example:8765"}});
   EXPECT_TRUE(hasText(other, "localhost"));
   EXPECT_TRUE(hasText(other, "ssh"));

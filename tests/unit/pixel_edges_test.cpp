@@ -1,6 +1,6 @@
 // Which pixels are edges.
 #include "pi.h"
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which pixels get every sample, worked out by hand on three pixels in a row.
-#include "sampling/sample_pattern.h"
+#include "sampling/adaptive_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -261,7 +261,7 @@ constexpr Case kInvarianceCases[] = {
      meshOrder},
     {"H61f", "an object that no ray reaches: the same bits", "far sphere behind a wall",
      Runs::packets, unreachableObject},
-    {"H61g", "effects that the scene has none of: the same bits", "kernels with every effect",
+    {"H61g", "effects that the scene has none of: the same bits", "a plan with every effect",
      Runs::packets, superfluousEffects},
 };
 

@@ -26,7 +26,8 @@ RenderOptions optionsOf(const Setup& setup, const ImageSize& size);
 
 class Probe {
  public:
-  // Compiles every effect in, so that all columns are there. `scene` must outlive the probe.
+  // The plan has the steps of every effect, so that all columns are there. `scene` must outlive the
+  // probe.
   Probe(const Scene& scene, const Setup& setup);
   // Also casts these rays.
   Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>& rays);

@@ -75,7 +75,7 @@ class Editing {
   void applySky(const Sky& sky) {
     scene.sky = sky;
     std::vector<std::string> settings;
-    stateSky(scene, settings);
+    addSkySetting(scene, settings);
     apply(settings);
     scene = editedScene(*open_);
   }
@@ -106,12 +106,12 @@ class RandomEdit {
       }
       if (chance()) m.roughness = unit();
       if (chance()) m.ior = 1 + unit();
-      state(before, m, scene.origin, settings);
+      addMemberSettings(before, m, scene.origin, settings);
     }
     for (Light& light : scene.lights) {
       const Light before = light;
       change(light);
-      state(before, light, scene.origin, settings);
+      addMemberSettings(before, light, scene.origin, settings);
     }
     return settings;
   }
@@ -144,10 +144,10 @@ void expectEditsInPlace(const std::string& name) {
     // The panel shows what the scene has.
     std::vector<std::string> differences;
     for (std::size_t k = 0; k < editing.now().lights.size(); ++k) {
-      state(editing.now().lights[k], editing.scene.lights[k], {}, differences);
+      addMemberSettings(editing.now().lights[k], editing.scene.lights[k], {}, differences);
     }
     for (std::size_t k = 0; k < editing.now().materials.size(); ++k) {
-      state(editing.now().materials[k], editing.scene.materials[k], {}, differences);
+      addMemberSettings(editing.now().materials[k], editing.scene.materials[k], {}, differences);
     }
     EXPECT_EQ(differences, std::vector<std::string>());
 
@@ -349,7 +349,7 @@ TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
   Editing editing(folder_ / "s.json", load);
   editing.scene.ambient.ofSky = 0.5;
   std::vector<std::string> settings;
-  stateAmbient(editing.scene, settings);
+  addAmbientSetting(editing.scene, settings);
   editing.apply(settings);
   EXPECT_GT(editing.now().ambient.up.x, 0);
   expectSkiesInPlace(editing);

@@ -1,7 +1,7 @@
 // The inspector's text about the pixel under the pointer.
 #include <gtest/gtest.h>
 
-#include "viewer/panel.h"
+#include "viewer/overlay.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

@@ -33,7 +33,7 @@ TEST(KnobCosts, AreOfOneViewOnly) {
 }
 
 TEST(KnobCosts, OnlyWhatCanBeToldFromNoiseIsSaidTheLargestFirst) {
-  const std::vector<KnobCost> told = toldFromNoise(
+  const std::vector<KnobCost> told = significantCosts(
       {costOf("small", 0.97, 0.02), costOf("noise", 0.95, 0.07), costOf("slower", 1.35, 0.07)});
   ASSERT_EQ(told.size(), 2u);
   EXPECT_EQ(told[0].name, "slower");

@@ -225,7 +225,7 @@ TEST_F(RenderThreadTest, EditsBetweenFrames) {
     Material edited = m;
     edited.mirror = edited.mirrorGrazing = {0, 0, 0};
     edited.diffuse = {0.2f, 0.9f, 0.1f};
-    state(m, edited, {}, edit.settings);
+    addMemberSettings(m, edited, {}, edit.settings);
   }
   // The edit must change the picture, and mirrors must be off.
   // An edit of a scene that was replaced is ignored.

@@ -164,10 +164,10 @@ TEST(ResolutionControl, ComparedPicturesHaveTheSamplesAskedFor) {
 
 TEST(ResolutionControl, SampledRaysGetMoreSamples) {
   ResolutionControl control = learned(10);
-  control.setSampled(true);
+  control.setNoisy(true);
   EXPECT_EQ(stepsAtRest(control, false).back(), (Sharpness{1, 1}));
   EXPECT_EQ(stepsAtRest(control, true).back(), (Sharpness{1, 256}));
-  control.setSampled(false);
+  control.setNoisy(false);
   EXPECT_EQ(control.still(true), (Sharpness{1, 16}));
 }
 

@@ -10,9 +10,10 @@ namespace whit::serve {
 namespace {
 
 constexpr int kLeastQuality = 40, kLargestQuality = 90, kMostUnderWay = 6;
-constexpr double kFullMs = 90, kFreeMs = 40;  // of delay beyond the least
+// A link counts as full or as free if messages take this much longer than the fastest one.
+constexpr double kFullMs = 90, kFreeMs = 40;
 constexpr double kLeastPixels = 160 * 100;
-constexpr double kLeastMsGrows = 0.2;  // an acknowledgement: links change
+constexpr double kLeastMsGrows = 0.2;  // with each acknowledgement, because links change
 
 int tilesIn(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 

@@ -1,10 +1,10 @@
-// The pictures for one page: which tiles are sent, as what, and when. Without knowledge of sockets
-// and clock.
+// The pictures for one page: which tiles are sent, in which format, and when. A stream knows
+// neither sockets nor the clock.
 //
 // In motion the tiles that changed are sent as JPEG, at rest all that are not exact yet as PNG, a
-// few at a time. The page acknowledges each message that it has drawn. How long that takes beyond
-// the least time says how full the link is; by it the number of messages under way, the quality and
-// the pixels of pictures in motion are chosen.
+// few at a time. The page acknowledges each message that it has drawn. How long that takes, beyond
+// the shortest time so far, tells how full the link is. The number of messages under way, the
+// quality and the number of pixels in motion follow from it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace whit::serve {
 
 inline constexpr int kTileSide = 128;              // pixels
-inline constexpr std::size_t kExactBytes = 48000;  // of PNG tiles in one message, about
+inline constexpr std::size_t kExactBytes = 48000;  // about this many of PNG tiles in a message
 
 // A message for the page: the bytes of its tiles, and a list of their places and sizes.
 struct Tiles {
@@ -36,14 +36,15 @@ class PictureStream {
   // send. With `exact` they are lossless.
   Tiles next(const DisplayImage& picture, bool exact, double nowMs);
 
-  // The page has drawn the message of this number. Returns false if it was not under way.
+  // Notes that the page has drawn the message of this number. Returns false if it was not under
+  // way.
   bool acknowledge(std::uint32_t number, double nowMs);
-  // Time for which the oldest message has been under way; 0: there is none.
+  // Returns the time for which the oldest message has been under way, or 0 if there is none.
   double waitedMs(double nowMs) const {
     return underWay_.empty() ? 0 : nowMs - underWay_.front().ms;
   }
 
-  // Most pixels of a picture in motion that the link is good for.
+  // Returns the largest number of pixels in motion that the link can carry.
   double mostPixels() const { return mostPixels_; }
   int quality() const { return quality_; }
 
@@ -56,7 +57,7 @@ class PictureStream {
 
   enum class TileState : std::uint8_t { stale, lossy, exact };  // as the page has it
   DisplayImage last_;                                           // the newest picture
-  std::vector<TileState> states_;  // of its tiles, when all messages are drawn
+  std::vector<TileState> states_;  // states of its tiles once all messages are drawn
   std::deque<Sent> underWay_;
   std::uint32_t number_ = 0;
   int window_ = 3;  // messages that may be under way

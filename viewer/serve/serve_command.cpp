@@ -54,6 +54,7 @@ int serve(const ServeJob& job) {
 
   ServedSession session(job.view, scene);
   progress.reset();
+
   // An IPv6 address may be in brackets, as in an URL.
   std::string bind = job.bind;
   if (bind.starts_with('[') && bind.ends_with(']')) bind = bind.substr(1, bind.size() - 2);
@@ -84,7 +85,8 @@ int serve(const ServeJob& job) {
 }
 #endif
 
-// Throws if options are of a scene and there is none: the page would open another without them.
+// Throws if options belong to a scene and none is named, because the page would open its scene
+// without them.
 void checkScene(const ServeJob& job) {
   const cli::CommonOptions& common = job.view.common;
   const Instant& instant = common.load.instant;
@@ -92,8 +94,8 @@ void checkScene(const ServeJob& job) {
       common.given.contains("camera") || common.ground || common.azimuth || common.zoom;
   const bool areOfTime = instant.seconds || !instant.animation.empty();
   refuseIf(job.scenes.empty() && (areOfView || areOfTime || !common.load.settings.empty()),
-           "expected SCENE beside --animation, --azimuth, --camera, --ground, --set, --time and "
-           "--zoom");
+           "expected SCENE, because --animation, --azimuth, --camera, --ground, --set, --time and "
+           "--zoom belong to a scene");
 }
 
 }  // namespace

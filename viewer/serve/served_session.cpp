@@ -15,12 +15,13 @@ namespace whit::serve {
 
 namespace {
 
-constexpr std::size_t kMostMessages = 4096;
-constexpr int kLeastSide = 16, kLargestSide = 4096;
-constexpr double kMostWindowPixels = 4e6;
-constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
-constexpr std::chrono::milliseconds kWait{200};
-constexpr std::chrono::seconds kDownloadTime{30};
+constexpr std::size_t kMostMessages = 4096;          // messages that may wait for the loop
+constexpr int kLeastSide = 16, kLargestSide = 4096;  // pixels of a page's picture
+constexpr double kMostWindowPixels = 4e6;            // largest number of pixels
+constexpr double kIdleSeconds = 0.25;                // longest wait of the loop
+constexpr double kLongestSeconds = 0.1;              // longest step of the camera
+constexpr std::chrono::milliseconds kWait{200};      // longest wait of a page for a shot
+constexpr std::chrono::seconds kDownloadTime{30};    // longest wait for a picture to download
 
 // Errors of files may hold bytes that are no UTF-8.
 std::string textOf(const Json& json) {
@@ -29,8 +30,7 @@ std::string textOf(const Json& json) {
 
 // How the page shows an option.
 Json describe(const view::Control& control) {
-  Json json{
-      {"name", control.name}, {"help", control.help}, {"tab", control.first ? "picture" : "knobs"}};
+  Json json{{"name", control.name}, {"help", control.help}, {"first", control.first}};
 
   if (!control.choices.empty()) {
     json["choices"] = control.choices;
@@ -350,7 +350,7 @@ Json ServedSession::settledJson() const {
                                !state.options.disable.has(static_cast<Effect>(i)), reason.because});
   }
 
-  for (const view::KnobCost& cost : view::toldFromNoise(state.costs)) {
+  for (const view::KnobCost& cost : view::significantCosts(state.costs)) {
     json["costs"].push_back({cost.name, view::costText(cost)});
   }
   json["about"] = view::aboutText(shown);

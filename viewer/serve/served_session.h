@@ -59,7 +59,7 @@ class ServedSession {
   std::shared_ptr<const Shot> wait(std::uint64_t number);
   // Changes the number of pages. Without any, nothing is traced.
   void watch(int more);
-  // Sets the most pixels of pictures in motion that the best link is good for.
+  // Limits the pixels of pictures in motion to what the best link can carry.
   void limitPixels(double pixels) { mostPixels_ = pixels; }
   // Returns the file of the view at full resolution, an EXR or a PNG; no bytes if that takes too
   // long.
@@ -89,15 +89,15 @@ class ServedSession {
   std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before
   std::atomic<double> mostPixels_ = 1e9;
   bool changed_ = true;  // there is something to show
-  bool said_ = false;    // the user has done something since the last shot
+  bool said_ = false;    // the user has asked for something since the last shot
   bool wasSharp_ = false;
   std::string told_;     // the notice of the last shot
   std::string command_;  // makes the picture at rest
 
-  std::mutex mutex_;  // guards all that follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable fresh_;
   std::vector<Message> messages_;
-  int downloads_ = 0;                               // that wait for frame_
+  int downloads_ = 0;                               // number of downloads that wait for frame_
   std::shared_ptr<const view::TracedFrame> frame_;  // the view at full resolution
   std::shared_ptr<const Shot> shot_;
   int pages_ = 0;

@@ -29,7 +29,7 @@ constexpr const char* kPage =
     ;
 
 constexpr double kWriteSeconds = 5, kTrustedIdleSeconds = 60;
-constexpr int kMostRequests = 100000;  // of a connection
+constexpr int kMostRequests = 100000;  // on one connection
 constexpr double kAliveMs = 2000;      // between messages to a page that has nothing to draw
 
 // Windows of VS Code show the page in a frame. No page of a web site has these schemes.
@@ -91,23 +91,23 @@ bool isOtherOrigin(const httplib::Request& request) {
   return !origin.empty() && origin != "http://" + request.get_header_value("Host");
 }
 
-// Returns what a user reads whose request was refused with this status.
+// Returns the text for a user whose request was refused with this status.
 const char* adviceOn(int status, const httplib::Request& request) {
   switch (status) {
     case 403:
       if (isOtherOrigin(request)) {
-        return "the page of another site has sent this request, or a proxy has changed its Host: "
-               "open the address that whit serve has printed, and forward its port over ssh";
+        return "a page of another site sent this request, or a proxy changed its Host: open the "
+               "address that whit serve printed, and forward its port over ssh";
       }
-      return "this address lacks the token of the server, which is another one each time it "
-             "starts: open the address that whit serve has printed last";
+      return "this address lacks the token of the server, which changes at every start: open the "
+             "address that whit serve printed last";
     case 421:
       return "whit serve answers only at the address that it was bound to, at localhost and at IP "
              "addresses: put one of them in place of this host, or forward the port over ssh, as "
-             "whit serve has printed";
+             "whit serve printed";
     case 404:
-      return "there is no such page: open the address that whit serve has printed, with the slash "
-             "at its end";
+      return "there is no such page: open the address that whit serve printed, with the slash at "
+             "its end";
     default:
       return "refused";
   }
@@ -115,12 +115,12 @@ const char* adviceOn(int status, const httplib::Request& request) {
 
 }  // namespace
 
-// A connection's bytes. It allows each request so many of them, and so much time.
+// Reads and writes a connection. Each request has a limit of bytes and a limit of time.
 class Connection : public httplib::Stream {
  public:
   Connection(socket_t socket, double seconds) : socket_(socket), seconds_(seconds) {}
 
-  // Waits for a request and allows it its share; returns false if none comes.
+  // Waits for a request and starts its limits anew. Returns false if none comes.
   bool begin() {
     left_ = kRequestBytes + view::kMessageBytes;
     since_ = Stopwatch();
@@ -185,9 +185,9 @@ class Connection : public httplib::Stream {
 
 namespace {
 
-thread_local Connection* current = nullptr;  // whose request this thread answers
+thread_local Connection* current = nullptr;  // its request is answered by this thread
 
-// The bytes of a number as the page reads it.
+// Returns a number as four bytes, the least significant one first, as the page reads it.
 std::string wordOf(std::size_t value) {
   std::string bytes(4, '\0');
   for (int i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i));
@@ -196,7 +196,7 @@ std::string wordOf(std::size_t value) {
 
 }  // namespace
 
-// The side of a page: what it has been sent, and what comes next.
+// A page as the server sees it: what it has been sent, and what comes next.
 class Page {
  public:
   Page(ServedSession& session, int number) : session_(session), number_(number) {
@@ -206,7 +206,8 @@ class Page {
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
 
-  // Returns the next message, empty if there is none yet; false when the page is deaf.
+  // Sets the next message, which is empty if there is none yet. Returns false if the page no longer
+  // acknowledges messages.
   bool next(std::string& message) {
     std::unique_lock lock(mutex_);
     if (pictures_.waitedMs(clock_.ms()) > 1000 * kDeafSeconds) return false;
@@ -314,9 +315,26 @@ bool isOwnHost(const std::string& host, const std::string& bind) {
 class Server::Http : public httplib::Server {
  public:
   Http(serve::Server& server, ServedSession& session) : server_(server), session_(session) {
-    using httplib::Request, httplib::Response;
+    limitClients();
+    checkRequests();
+    answerRequests();
+  }
 
-    // These limits bound what clients can take up.
+  // Lets more connections wait than the library does, so that a crowd does not keep a page out.
+  void widen() { ::listen(svr_sock_, kMostConnections); }
+
+  // Ends all connections, so that their threads end.
+  void hangUp() {
+    const std::lock_guard lock(mutex_);
+    for (const Connection* connection : connections_) ::shutdown(connection->socket(), SHUT_RDWR);
+  }
+
+ private:
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+
+  // Bounds what clients can take up.
+  void limitClients() {
     new_task_queue = [] { return new ThreadsOnDemand(); };
     set_payload_max_length(view::kMessageBytes);
     set_tcp_nodelay(true);
@@ -327,8 +345,10 @@ class Server::Http : public httplib::Server {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
+  }
 
-    // A request is refused by its path and headers, before its body is read.
+  // Refuses requests by their paths and headers, before their bodies are read, and says why.
+  void checkRequests() {
     set_pre_routing_handler([this](const Request& request, Response& response) {
       response.status = refusalOf(request);
       if (response.status == 0) {
@@ -341,7 +361,8 @@ class Server::Http : public httplib::Server {
     });
 
     set_logger([](const Request&, const Response& response) {
-      current->over |= response.status >= 400;  // what follows may be the rest of what was refused
+      // After a refusal, what follows may be the rest of the refused request.
+      current->over |= response.status >= 400;
     });
 
     set_exception_handler([](const Request&, Response& response, std::exception_ptr thrown) {
@@ -352,7 +373,10 @@ class Server::Http : public httplib::Server {
         response.set_content(printable(error.what()) + "\n", "text/plain");
       }
     });
+  }
 
+  // Everything that is served lies below the token.
+  void answerRequests() {
     // The page runs only its own script and style, which carry a nonce, and loads nothing from
     // elsewhere.
     const std::string nonce = randomToken();
@@ -369,13 +393,12 @@ class Server::Http : public httplib::Server {
                     "form-action 'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; "
                     "frame-ancestors ") +
               kEditorFrames +
-              (server.options_.framed ? " http://localhost:* http://127.0.0.1:*" : "")},
+              (server_.options_.framed ? " http://localhost:* http://127.0.0.1:*" : "")},
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cache-Control", "no-store"}});
 
-    // Everything that is served lies below the token.
-    const std::string root = "/" + server.token_ + "/";
+    const std::string root = "/" + server_.token_ + "/";
     Get(root, [page = withNonce(kPage)](const Request&, Response& response) {
       response.set_content(page, "text/html; charset=utf-8");
     });
@@ -398,16 +421,6 @@ class Server::Http : public httplib::Server {
     });
   }
 
-  // Lets more connections wait than the library does, so that a crowd does not keep a page out.
-  void widen() { ::listen(svr_sock_, kMostConnections); }
-
-  // Ends all connections, so that their threads end.
-  void hangUp() {
-    const std::lock_guard lock(mutex_);
-    for (const Connection* connection : connections_) ::shutdown(connection->socket(), SHUT_RDWR);
-  }
-
- private:
   // Returns the status by which a request is refused; 0: it is not.
   int refusalOf(const httplib::Request& request) const {
     // The Host header stops DNS rebinding, and the Origin header stops requests by other sites'

@@ -15,7 +15,7 @@ namespace whit::serve {
 struct ServerOptions {
   std::string bind = "127.0.0.1";
   int port = 0;               // 0: kUsualPort, or any free one if that is taken
-  double requestSeconds = 5;  // in which a request is to arrive
+  double requestSeconds = 5;  // time limit for the arrival of a request
   bool framed = false;  // notebooks of this machine show the page in a frame; VS Code always may
 };
 inline constexpr int kUsualPort = 8765;
@@ -24,15 +24,15 @@ inline constexpr int kMostPages = 16;
 inline constexpr int kMostStrangers = 32;           // connections that have not shown the token
 inline constexpr int kMostConnections = 128;        // at a time, with a thread each; others wait
 inline constexpr std::size_t kRequestBytes = 8192;  // without the body
-inline constexpr double kDeafSeconds =
-    10;  // a page that acknowledges nothing for so long is dropped
+// A page that acknowledges nothing for this time is dropped.
+inline constexpr double kDeafSeconds = 10;
 
 // Returns 128 random bits from the system, in hexadecimal.
 std::string randomToken();
 // Returns whether both are the same, in a time that does not depend on where they differ.
 bool sameToken(std::string_view a, std::string_view b);
-// Returns whether a Host header names the machine in a way that nobody else's DNS can: by an
-// address or as localhost, or by the name that the server was bound to.
+// Returns true if a Host header names the machine by an address, as localhost or by the name that
+// the server was bound to. A foreign DNS server can make no such name lead here.
 bool isOwnHost(const std::string& host, const std::string& bind);
 
 class Server {

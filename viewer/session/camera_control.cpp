@@ -19,7 +19,7 @@ void grow(Box& box, const Box& other) {
   box.add(other.upper);
 }
 
-// Returns whether a triangle of that size is level and reaches across half of the room.
+// Returns true if a triangle of this size is level and reaches across half of the room.
 bool isFloor(const Vec3f& triangle, const Vec3f& room, int up) {
   constexpr float kLevel = 1e-3f, kFar = 0.5f;
   for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +63,7 @@ Box subjectOf(const Scene& scene) {
     boxes.push_back(boundsAboveFloor(scene, geometry));
   }
 
-  Box box = boxes.front();  // of the world, and the others are instanced
+  Box box = boxes.front();  // bounds of the world; the other geometries are placed by instances
   for (const InstanceRecord& instance : scene.instances) {
     const Box& own = boxes[instance.geometry];
     for (int i = 0; i < 8; ++i) box.add(Vec3f(instance.toWorld.point(Vec3d(own.corner(i)))));

@@ -1,11 +1,11 @@
-// Flying, looking around and orbiting, without knowledge of window and clock.
+// Flying, looking around and orbiting. The camera's control knows neither window nor clock.
 #pragma once
 
 #include "bake/scene.h"
 
 namespace whit::view {
 
-// The user's wishes for one step of the camera. Directions are -1, 0 or 1.
+// What the user asks for in one step of the camera. Directions are -1, 0 or 1.
 struct CameraMotion {
   double forward = 0, right = 0, up = 0;  // moves
   bool fast = false;
@@ -16,10 +16,12 @@ struct CameraMotion {
 };
 
 inline constexpr double kFastFactor = 4;
-inline constexpr double kZoomFactor = 0.88;        // of the distance to what is orbited, a notch
-inline constexpr double kNotchSeconds = 0.3;       // of walking, a notch in a room
-inline constexpr double kRadiansPerPixel = 0.004;  // mouse
-inline constexpr double kRadiansPerSecond = 1.2;   // arrow keys
+// A notch of the wheel multiplies the distance to the point that is orbited by this factor.
+inline constexpr double kZoomFactor = 0.88;
+// In a room, a notch goes as far as the camera walks in this time.
+inline constexpr double kNotchSeconds = 0.3;
+inline constexpr double kRadiansPerPixel = 0.004;         // mouse
+inline constexpr double kRadiansPerSecond = 1.2;          // arrow keys
 inline constexpr double kSteepestRadians = 1.5533430;     // 89 degrees: `up` stays meaningful
 inline constexpr double kNearest = 1e-3, kFarthest = 10;  // distances, in diagonals of the model
 
@@ -34,7 +36,7 @@ Box boundsToOrbit(const Box& subject, const Camera& camera);
 
 class CameraControl {
  public:
-  // `speed` in scene units a second.
+  // `speed` is in scene units a second.
   CameraControl(const Camera& camera, double speed) : speed_(speed) { set(camera); }
 
   // `model` bounds the point to orbit; an empty box means that nothing is orbited.
@@ -64,7 +66,7 @@ class CameraControl {
   Box model_, reach_;  // bounds of the model, and of the points that may be orbited
   // In double, so that slow motion far from the origin does not stall.
   Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length
-  double elevation_ = 0;    // of the view over the plane perpendicular to up_, radians
+  double elevation_ = 0;    // angle of the view above the plane perpendicular to up_, radians
   double distance_ = 1;     // to the point that is orbited
 };
 

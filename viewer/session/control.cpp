@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/text.h"
+
 namespace whit::view {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr std::array<std::string_view, 8> kFirst{"spp",      "depth",         "g
 std::vector<Control> controlsOf(const RenderOptions& options) {
   std::vector<Control> controls;
   forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
-    if (spec.tab == Tab::none) return;
+    if (!spec.inPanel) return;
     controls.push_back(describeControl(spec, field));
     controls.back().first = std::ranges::find(kFirst, spec.name) != kFirst.end();
   });
@@ -24,7 +26,7 @@ std::vector<Control> controlsOf(const RenderOptions& options) {
 }
 
 const std::vector<std::string>& presetNames() {
-  static const std::vector<std::string> kNames{"good", "standard", "reference"};
+  static const std::vector<std::string> kNames = namesIn(qualityPresets());
   return kNames;
 }
 

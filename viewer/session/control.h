@@ -15,10 +15,10 @@ struct Control {
   enum class Kind { none, toggle, choice, integer, real };
   Kind kind = Kind::none;
   std::string name, help, value;
-  bool first = false;                // it changes a picture most
-  double low = 0, high = 0;          // of numbers
-  double step = 0;                   // 0: any
-  std::vector<std::string> choices;  // of toggles, too
+  bool first = false;                // among the options that change a picture most
+  double low = 0, high = 0;          // range of a number
+  double step = 0;                   // step of a number; 0: any
+  std::vector<std::string> choices;  // toggles have two
 };
 
 // Returns a control of kind `none` if the option is set by commands only.

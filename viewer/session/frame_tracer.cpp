@@ -164,7 +164,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
   // A smaller frame of the same view is timed, and its cost is scaled by the number of pixels.
   const ImageSize whole = request.options.size.value();
   const ImageSize size = measuredSize(whole, msPerSample_ * engine_->options().spp);
-  sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
+  sizeFilm(measured_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /
                        (static_cast<double>(size.width) * size.height);
 
@@ -178,8 +178,8 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
     return !calls.superseded();
   };
 
-  const bool complete =
-      measureKnobs(engine_->renderer(), engine_->options(), request.camera, band_, scale, goesOn);
+  const bool complete = measureKnobs(engine_->renderer(), engine_->options(), request.camera,
+                                     measured_, scale, goesOn);
   frame.measured = 1;
   return complete;
 }

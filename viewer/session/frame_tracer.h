@@ -1,5 +1,5 @@
-// Makes the viewer's pictures: what is requested, what is traced, and the tracer. It also measures
-// the costs of options and answers queries for the rays of a pixel.
+// Makes the viewer's pictures: what is requested, what is traced, and the tracer, which also
+// answers queries for the rays of a pixel.
 #pragma once
 
 #include <array>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/timing.h"
 #include "command_line/parse_options.h"
 #include "engine/engine.h"
 #include "inspect/ray_tree.h"
@@ -17,46 +16,11 @@
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
 #include "output/explained_rays.h"
+#include "viewer/session/knob_costs.h"
 #include "viewer/session/scene_edit.h"
 #include "viewer/session/scene_reader.h"
 
 namespace whit::view {
-
-// The cost of an option or an effect at the present view (knob_costs.cpp). Frames with the present
-// setting and with the option's cheapest one, or without the effect, are timed in turns.
-struct KnobCost {
-  std::string name;         // of the option, or of the effect
-  std::string other;        // the setting to compare with: the cheapest, or "off" for an effect
-  FrameStats now, then;     // with the present setting and with the other
-  accuracy::Timing timing;  // its ratio is that of the other setting's time to the present one's
-  double presentMs = 0;     // of a frame of the whole window with the present setting
-
-  // The time that the present setting adds to a frame of the whole window.
-  double ms() const { return presentMs * (1 - timing.ratio); }
-  // True if the difference is larger than the noise of the machine.
-  bool significant() const { return timing.ratioLow > 1 || timing.ratioHigh < 1; }
-};
-
-// Returns the costs that exceed the noise of the machine, the largest first.
-std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs);
-// Returns a text such as "off would be 35 ms faster".
-std::string costText(const KnobCost& cost);
-
-// Returns the size of the frames whose time is measured. It is that of the window, or smaller if a
-// frame of the whole window would take longer than kMeasuredMs.
-ImageSize measuredSize(const ImageSize& window, double msPerPixel);
-inline constexpr double kMeasuredMs = 50;
-
-// Called between frames and at the end, with the costs so far and the share of the knobs that is
-// measured. Returns false to end the measurement.
-using MeasureCall = std::function<bool(const std::vector<KnobCost>& sofar, double measured)>;
-
-// Measures the cost of each option and each effect. Leaves out options that are at their cheapest
-// setting already, and those that need another renderer. `film` is overwritten; a pixel of it
-// stands for `scale` pixels of the window. The renderer has `options` before and after. Returns
-// false if `goesOn` ended the measurement.
-bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera& camera,
-                  Film& film, double scale, const MeasureCall& goesOn);
 
 struct FrameRequest {
   Camera camera;
@@ -109,7 +73,7 @@ struct TracedFrame {
   RenderOptions options;  // the renderer's, with the sampled rays that a plain picture leaves out
   std::string surfaces;   // the number of triangles and spheres, in words
   std::string animation;  // the animation that was asked for
-  std::string warning;    // that an edit has given; empty: none
+  std::string warning;    // the warning of an edit; empty: none
   Film film;
   FrameStats stats;
   ImageMetadata metadata;
@@ -174,7 +138,7 @@ struct TraceCalls {
   // Called between passes, once the picture has more samples than the finished one of the same
   // view.
   std::function<void(UnfinishedFrame)> showUnfinished;
-  Progress* progress = nullptr;  // of the scalar reference
+  Progress* progress = nullptr;  // gets the progress of the scalar reference
 };
 
 // Makes the pictures that requests ask for. It belongs to one thread.
@@ -210,15 +174,15 @@ class FrameTracer {
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
-  const bool warns_;  // of edits, on standard error
+  const bool warns_;  // prints the warnings of edits on standard error
   std::unique_ptr<Engine> engine_;
   std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
   std::string warning_;                        // warning of edits, until a picture shows it
-  Film band_;                                  // the film of measure()
+  Film measured_;                              // frames of measure() are traced into it
   std::optional<Film> reference_;              // empty: not traced, or given up
   std::optional<FrameRequest> referenceFor_;   // the picture of reference_, without its view
   std::optional<FrameRequest> finished_;       // the last picture that was not given up
-  double msPerSample_ = 0;  // of the last picture that was not plain; 0: none yet
+  double msPerSample_ = 0;  // in the last picture that was not plain; 0: there was none
 };
 
 }  // namespace whit::view

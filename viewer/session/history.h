@@ -9,34 +9,35 @@
 
 namespace whit::view {
 
-// A state is all that the user has chosen about scene and picture.
-struct Past {
+// All that the user has chosen about scene and picture.
+struct UserState {
   std::vector<std::string> settings;
   std::string givenSky;
   RenderOptions options;
-  bool operator==(const Past&) const = default;
+  bool operator==(const UserState&) const = default;
 };
 
-// The states between edits. The last one is the present.
+// Holds the states between edits; the last one is the present.
 class History {
  public:
-  explicit History(const Past& present) : past_{present} {}
+  explicit History(const UserState& present) : states_{present} {}
 
-  // Adds the present after an edit. Without a pause since the last edit both are one.
-  void add(const Past& present);
+  // Adds the present after an edit. Edits without a pause between them count as one.
+  void add(const UserState& present);
   // Takes over a present that is no edit of the user's.
-  void replace(const Past& present) { past_.back() = present; }
+  void replace(const UserState& present) { states_.back() = present; }
   // Takes over the present after an edit that has failed.
-  void takeBack(const Past& present);
+  void takeBack(const UserState& present);
   // Returns to the state before the last edit; none: there is no such state.
-  std::optional<Past> undo();
+  std::optional<UserState> undo();
 
   void wait(double seconds) { sinceEdit_ += seconds; }
-  // An automatic exposure was measured, and undoing does not ask for it again.
+  // Puts the measured exposure in place of an automatic one, so that undoing does not measure
+  // again.
   void settleExposure(const Exposure& measured);
 
  private:
-  std::vector<Past> past_;
+  std::vector<UserState> states_;
   double sinceEdit_ = 0;  // seconds
 };
 

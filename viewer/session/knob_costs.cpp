@@ -1,10 +1,11 @@
+#include "viewer/session/knob_costs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/option_table.h"
 #include "core/text.h"
-#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 
@@ -42,7 +43,7 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
 
 }  // namespace
 
-std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs) {
+std::vector<KnobCost> significantCosts(std::vector<KnobCost> costs) {
   std::erase_if(costs, [](const KnobCost& cost) { return !cost.significant(); });
   std::ranges::stable_sort(costs, [](const KnobCost& a, const KnobCost& b) {
     return std::abs(a.ms()) > std::abs(b.ms());

@@ -1,10 +1,10 @@
 // The tracing thread, apart from the window's: frames are handed over by exchanging buffers, so
 // that neither thread waits for the other.
 //
-// Pictures in motion are not queued. One is asked for when the one before is finished and taken, so
-// that it shows what the user has done by then; thus at most two pictures are finished after a key
-// up to its own, that one included. A picture at rest is given up for anything else, or dropped if
-// it has just been finished.
+// Pictures in motion are not queued. A new one is requested only when the one before has been
+// finished and taken, so that it shows all that the user has done by then: a key has its effect in
+// the second picture after it at the latest. A picture at rest is given up for any other request,
+// or dropped if it has just been finished.
 #pragma once
 
 #include <condition_variable>
@@ -71,11 +71,11 @@ class RenderThread {
   bool hasWork() const { return isWaiting() || query_; }
 
   const std::function<void()> onChange_;
-  FrameTracer tracer_;  // the tracing thread's own, as is the next
-  TracedFrame back_;
+  FrameTracer tracer_;  // only the tracing thread uses tracer_ and back_
+  TracedFrame back_;    // the picture that is being traced
   LatestProgress progress_;
 
-  mutable std::mutex mutex_;  // guards all that follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;
   // Requests of the window; each is handed to the tracing thread once, in this order.
   std::unique_ptr<Engine> scene_;

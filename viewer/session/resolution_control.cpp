@@ -62,7 +62,7 @@ std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
   for (const double scale : kCoarseScales) steps.push_back({scale, 1});
   if (spp_ > 1) steps.push_back({1, 1});
 
-  const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
+  const std::size_t factors = noisy_ ? kStillSppFactors.size() : kUnsampledSppFactors;
   for (std::size_t i = 0; i < (supersample ? factors : 1); ++i) {
     steps.push_back({1, std::min(spp_ * kStillSppFactors[i], kSppLimit)});
     if (steps.back().spp == kSppLimit) break;

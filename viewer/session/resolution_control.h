@@ -1,7 +1,6 @@
-// Chooses the resolution and samples of the next frame, without knowledge of window and
-// clock.
+// Chooses the resolution and samples of the next frame. It knows neither window nor clock.
 //
-// In motion it holds the frame rate, by the cost of recent samples. What is given up first is what
+// In motion it holds the frame rate, judging by the cost of recent samples. It first gives up what
 // the eye misses least: samples down to one a pixel, then rays that are sampled, then resolution.
 // At rest it goes step by step through 1/8, 1/4, 1/2 and all of the window's pixels with one sample
 // each, beginning with a step that takes little time, then through 1, 4 and 16 times the samples
@@ -52,8 +51,8 @@ class ResolutionControl {
   }
   // Limits pictures in motion where a link cannot carry more.
   void setMostPixels(double pixels) { mostPixels_ = pixels; }
-  // Pictures whose rays are sampled get more samples at rest.
-  void setSampled(bool sampled) { sampled_ = sampled; }
+  // Pictures with noise get more samples at rest.
+  void setNoisy(bool noisy) { noisy_ = noisy; }
 
   // Notes the time of a frame with this number of samples; `plain`: without sampled rays.
   void learn(double ms, double samples, bool plain = false);
@@ -75,12 +74,12 @@ class ResolutionControl {
 
   double rate_ = kFewCoresRate;
   int spp_;
-  bool raysAreSampled_ = false;
-  bool sampled_ = false;
-  std::size_t level_ = 0;  // index of the steps in motion
-  std::size_t step_ = 0;   // index of the steps at rest
+  bool raysAreSampled_ = false;  // the options ask for sampled rays
+  bool noisy_ = false;           // the last picture had noise
+  std::size_t level_ = 0;        // index of the steps in motion
+  std::size_t step_ = 0;         // index of the steps at rest
   double windowPixels_ = 0, mostPixels_ = 1e9;
-  double msPerSample_ = 0;  // of plain samples; 0: nothing learned yet
+  double msPerSample_ = 0;  // time of a plain sample; 0: not known yet
   // Plain samples that cost as much as one with sampled rays; a guess until one was traced.
   double sampledRaysFactor_ = 4;
 };

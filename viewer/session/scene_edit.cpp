@@ -12,11 +12,11 @@ namespace whit::view {
 
 namespace {
 
-// A member whose default value depends on a changed member has to be set as well. Settings have
-// coordinates of the file, which `origin` was subtracted from.
+// Adds a setting for each member that has changed, and for those whose default values depend on it.
+// Settings have coordinates of the file, which `origin` was subtracted from.
 template <typename Noun>
-void stateMembers(const Noun& before, const Noun& after, const Vec3d& origin,
-                  std::vector<std::string>& settings) {
+void addChanges(const Noun& before, const Noun& after, const Vec3d& origin,
+                std::vector<std::string>& settings) {
   std::set<std::string_view> decided;
   forEachMemberInFiles(before, [&](const auto& member) {
     const auto& value = after.*member.field;
@@ -45,7 +45,8 @@ EditedScene editedScene(const OpenScene& open) {
       {sky.name, sky.kind, sky.zenith, sky.horizon, sky.ground, {}, sky.scale, sky.rotation},
       scene.ambient};
 
-  // Settings do not change from where the nodes of a model carry its lights.
+  // Lights that move are shown where they start, except those of a model: its nodes carry them, and
+  // settings do not change that.
   if (scene.isModel) return edited;
   for (const MovingLight& moving : scene.motion.given.lights) {
     edited.lights[moving.light].position = moving.position;
@@ -69,25 +70,25 @@ LoadOptions editedLoad(const SceneEdit& edit) {
   return load;
 }
 
-void state(const Material& before, const Material& after, const Vec3d& origin,
-           std::vector<std::string>& settings) {
-  stateMembers(before, after, origin, settings);
+void addMemberSettings(const Material& before, const Material& after, const Vec3d& origin,
+                       std::vector<std::string>& settings) {
+  addChanges(before, after, origin, settings);
 }
 
-void state(const Light& before, const Light& after, const Vec3d& origin,
-           std::vector<std::string>& settings) {
-  stateMembers(before, after, origin, settings);
+void addMemberSettings(const Light& before, const Light& after, const Vec3d& origin,
+                       std::vector<std::string>& settings) {
+  addChanges(before, after, origin, settings);
 }
 
-void stateSky(const EditedScene& scene, std::vector<std::string>& settings) {
+void addSkySetting(const EditedScene& scene, std::vector<std::string>& settings) {
   settings.push_back("/sky=" + describe(scene.sky).dump());
   // The reader of a model would choose its ambient light by the sky.
   if (scene.isModel) settings.push_back("/ambient=" + describe(scene.ambient).dump());
 }
 
-void stateAmbient(const EditedScene& scene, std::vector<std::string>& settings) {
+void addAmbientSetting(const EditedScene& scene, std::vector<std::string>& settings) {
   // Only a sky in the file makes ambient light, not one that is given by --sky.
-  if (scene.ambient.ofSky > 0 && !scene.givenSky.empty()) stateSky(scene, settings);
+  if (scene.ambient.ofSky > 0 && !scene.givenSky.empty()) addSkySetting(scene, settings);
   settings.push_back("/ambient=" + describe(scene.ambient).dump());
 }
 

@@ -16,9 +16,9 @@ struct EditedScene {
   std::vector<std::string> settings;
   std::string givenSky;  // replaces the scene's own (--sky); empty: none does
   bool isModel = false;
-  Vec3d origin;  // of the scene's coordinates, in those of the file
+  Vec3d origin;  // origin of the scene's coordinates, in those of the file
   std::vector<Material> materials;
-  std::vector<Light> lights;  // those that move, where they start
+  std::vector<Light> lights;  // lights that move are where they start
   Sky sky;                    // without its image
   Ambient ambient;
 };
@@ -38,12 +38,12 @@ LoadOptions editedLoad(const SceneEdit& edit);
 
 // These add settings that make the members of a scene what they are now: those of a material or
 // light that have changed, the sky, or the ambient light.
-void state(const Material& before, const Material& after, const Vec3d& origin,
-           std::vector<std::string>& settings);
-void state(const Light& before, const Light& after, const Vec3d& origin,
-           std::vector<std::string>& settings);
-void stateSky(const EditedScene& scene, std::vector<std::string>& settings);
-void stateAmbient(const EditedScene& scene, std::vector<std::string>& settings);
+void addMemberSettings(const Material& before, const Material& after, const Vec3d& origin,
+                       std::vector<std::string>& settings);
+void addMemberSettings(const Light& before, const Light& after, const Vec3d& origin,
+                       std::vector<std::string>& settings);
+void addSkySetting(const EditedScene& scene, std::vector<std::string>& settings);
+void addAmbientSetting(const EditedScene& scene, std::vector<std::string>& settings);
 
 // Returns the sky kNoSky, kStudio or that of an image file, without its image.
 Sky skyFrom(const std::string& source);

@@ -16,7 +16,8 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureLimit = 64;
-constexpr double kPixelsPerNotch = 20;  // dragged with the right button to go forward
+// A drag of this length with the right button counts as a notch of the wheel.
+constexpr double kPixelsPerNotch = 20;
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error
@@ -144,9 +145,11 @@ void Session::advance(double seconds) {
   heldSeconds_ += seconds;
   const bool moved = moveCamera(takeMotion(), seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
+
   watchSceneFile();
   followRays();
   askForFrame();
+
   messageSeconds_ -= seconds;
   if (messageSeconds_ <= 0) state_.message.clear();
   history_.wait(seconds);
@@ -235,22 +238,25 @@ void Session::flyPath(double seconds) {
   show(cameraAt(path, *pathTime_));
 }
 
-bool Session::fetchFrame() {
-  showReadScene();
-  bool answered = false;
+// Shows an error of the tracing thread, and returns to the options of the picture that is shown,
+// which are known to work.
+void Session::takeTracingError() {
   const std::string error = thread_.takeError();
-  if (!error.empty()) {
-    // The options of the picture that is shown are known to work.
-    if (state_.shown.scene) {
-      const auto size = state_.options.size;
-      state_.options = state_.shown.request.options;
-      state_.options.size = size;
-      history_.takeBack(present());
-    }
-    fail(error);
-  }
+  if (error.empty()) return;
 
-  // The answer to a pick and the samples of an unfinished picture are shown without a new frame.
+  if (state_.shown.scene) {
+    const auto size = state_.options.size;
+    state_.options = state_.shown.request.options;
+    state_.options.size = size;
+    history_.takeBack(present());
+  }
+  fail(error);
+}
+
+// Takes the answer to a pick and the samples of an unfinished picture, which are shown without a
+// new frame. Returns whether there was one of them.
+bool Session::takeAnswers() {
+  bool answered = false;
   if (auto pick = thread_.takePick(); pick && picked_) {
     state_.rays = std::move(*pick);
     if (std::exchange(selects_, false)) {
@@ -263,8 +269,15 @@ bool Session::fetchFrame() {
     state_.unfinished = std::move(frame);
     answered = true;
   }
+  return answered;
+}
 
+bool Session::fetchFrame() {
+  showReadScene();
+  takeTracingError();
+  const bool answered = takeAnswers();
   if (!thread_.take(state_.shown)) return answered;
+
   state_.unfinished.reset();
   if (state_.shown.scene != state_.scene && followScene()) {
     // The picture is from the camera of the other scene, and one like it may be asked for again.
@@ -321,7 +334,7 @@ void Session::learnTimes() {
   if (request.view == viewToTrace(request.interruptible)) {
     resolution_.learn(state_.shown.stats.frameMs, samplesOf(request), request.plain);
   }
-  if (!request.plain) resolution_.setSampled(state_.shown.sampled);
+  if (!request.plain) resolution_.setNoisy(state_.shown.sampled);
 
   // The frame rate is shown as a mean over the last pictures in motion, the newest counting most.
   constexpr double kNewest = 0.2;  // weight of the newest picture
@@ -438,7 +451,7 @@ void Session::edit(const std::vector<std::string>& settings, const EditedScene& 
 }
 
 void Session::undo() {
-  const std::optional<Past> past = history_.undo();
+  const std::optional<UserState> past = history_.undo();
   if (!past) {
     say("there is nothing to undo");
     return;
@@ -591,9 +604,11 @@ void Session::takeScene(bool elsewhere) {
   subject_ = subjectOf(scene());
   history_.replace(present());
   if (scene().cameraPath.empty()) pathTime_.reset();
+
   const Timeline before = state_.timeline;
   Timeline& timeline = state_.timeline;
   timeline = timelineOf(scene(), {std::nullopt, state_.scene->load.instant.animation});
+
   // Another animation begins at its start.
   const bool goesOn = timeline.animation == before.animation;
   timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;

@@ -63,17 +63,18 @@ class Session {
   std::string notice() const;
   // A scene is being read, or was read and no frame shows it yet.
   bool isReading() const { return reader_.busy() || coming_; }
-  bool waitsForReader() const { return reader_.holds(); }  // at its end
+  // True if the destructor would wait for a scene that is being read.
+  bool waitsForReader() const { return reader_.holds(); }
   // Closes the error, or else gives up what is read; the scene stays as it is. Returns false if
   // there is neither.
   bool close();
 
-  // The picture is shown in so many pixels, and in a window that is so high in the units of drags.
-  // So many units of a drag make one point.
+  // Sets the size of the picture in pixels, the height of the window in units of drags, and the
+  // number of those units in a point.
   void setWindow(const ImageSize& pixels, double height, double scale);
-  // At rest no more samples than asked for: scripts compare pictures.
+  // Ends that pictures at rest get more samples than asked for, because scripts compare pictures.
   void endSupersampling() { supersample_ = false; }
-  // Sets the most pixels of pictures in motion that a link is good for.
+  // Limits the pixels of pictures in motion to what a link can carry.
   void limitPixels(double pixels) { resolution_.setMostPixels(pixels); }
 
   bool fetchFrame();  // returns whether there is something new to show
@@ -89,7 +90,7 @@ class Session {
   bool orbits() const { return control_.orbits(); }
   void holdStill();  // pauses the animation and the flight, so that the picture sharpens
 
-  // Returns the command that makes the view shown; of one that is not sharp yet, as it will be.
+  // Returns the command that makes the view shown, as it will be when it is sharp.
   std::string command() const;
 
   // True until a scene is open, in a session that began without one.
@@ -98,8 +99,10 @@ class Session {
   bool showsScene() const { return hasScene_ && state_.shown.scene; }
   // Opens a shipped scene if none is open. This is the only file that users of the page can read.
   void openShipped(const std::string& name);
-  // These are for users who may read and write files here.
-  // The first scene is opened with all options of the command line.
+
+  // The functions below are for users who may read and write files of this machine.
+
+  // Opens a scene; the first one gets all options of the command line.
   void open(const std::string& name);
   // Adds settings; `edited` is the scene with them.
   void edit(const std::vector<std::string>& settings, const EditedScene& edited);
@@ -111,6 +114,8 @@ class Session {
  private:
   Session(const ViewOptions& options, bool hasScene, const std::shared_ptr<OpenScene>& scene,
           std::function<void()> onChange);
+
+  // The camera, and the time of a scene that moves.
   void drag(Drag& sum, const Message& message);
   void hold(const Message& message);
   CameraMotion takeMotion();
@@ -122,6 +127,11 @@ class Session {
   void playOrPause();  // the animation, or else the flight along the camera path
   void setTime(double seconds);
   void chooseAnimation(const std::string& name);
+  bool moveCamera(const CameraMotion& motion, double seconds);
+  bool play(double seconds);
+  void flyPath(double seconds);
+
+  // Options and views.
   void expose(float step);
   void showNextView();
   void chooseView(const std::string& name);
@@ -130,20 +140,22 @@ class Session {
   void chooseEffect(const std::string& name, bool on);
   void choosePreset(const std::string& name);
   void measure();
+  RenderOptions viewOptions() const;
+
+  // The rays of a pixel.
   void pick(double x, double y);  // a pixel of the window
   void lookFromAside();
   void forgetRays();
+  void followRays();
+
+  // Edits of the scene.
   void undo();
-  Past present() const { return {state_.edited.settings, state_.edited.givenSky, state_.options}; }
-  void watch(const std::string& scene);
-  void load(const SceneChoice& choice);
-  void reload();
-  const Scene& scene() const { return state_.scene->scene; }
-  RenderOptions viewOptions() const;
+  UserState present() const {
+    return {state_.edited.settings, state_.edited.givenSky, state_.options};
+  }
   void postEdit();
-  bool moveCamera(const CameraMotion& motion, double seconds);
-  bool play(double seconds);
-  void flyPath(double seconds);
+
+  // Pictures that are requested and fetched.
   void learnTimes();
   void rememberCosts();
   void askForFrame();
@@ -152,7 +164,14 @@ class Session {
   FrameRequest movingRequest(const ImageSize& window);
   FrameRequest stillRequest(const ImageSize& window);
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
-  void followRays();
+  void takeTracingError();
+  bool takeAnswers();
+
+  // Scenes that are read and shown.
+  const Scene& scene() const { return state_.scene->scene; }
+  void watch(const std::string& scene);
+  void load(const SceneChoice& choice);
+  void reload();
   void watchSceneFile();
   void readAgain(const std::string& animation);
   void showReadScene();
@@ -173,12 +192,12 @@ class Session {
   double windowHeight_ = 1, dragScale_ = 1;
   Drags drags_;
   CameraMotion held_;
-  double heldSeconds_ = kHeldSeconds;  // time since `hold` was said
+  double heldSeconds_ = kHeldSeconds;  // time since the last `hold`
   double restSeconds_ = 0;             // time since something changed
   std::optional<double> pathTime_;     // the time on the camera path that is flown
   double messageSeconds_ = 0;          // time for which the message is still shown
 
-  FrameRequest measuredFor_;              // of the costs
+  FrameRequest measuredFor_;              // the view whose costs are shown
   std::optional<FrameRequest> stillFor_;  // the view that is being sharpened
   Stopwatch sincePicture_;
   std::optional<FrameRequest> asked_;
@@ -191,14 +210,14 @@ class Session {
   std::string comingName_;                   // its name; empty: the scene shown was read again
   int reloads_ = 0, edits_ = 0;
   int readEdits_ = 0;                       // edits_ when the last reading began
-  std::vector<std::string> readSettings_;   // with which the scene was read first
-  std::vector<std::string> savedSettings_;  // that a file or the command line holds
-  History history_{Past()};
-  Box subject_;  // of the scene
+  std::vector<std::string> readSettings_;   // settings with which the scene was read first
+  std::vector<std::string> savedSettings_;  // settings that a file or the command line holds
+  History history_{UserState()};
+  Box subject_;  // subjectOf() the scene
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
 
-  // Keys are let go if it is not repeated that they are held.
+  // A key counts as let go if this time passes without a message that it is held.
   static constexpr double kHeldSeconds = 1;
 };
 

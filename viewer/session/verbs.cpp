@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLongestDrag = 1e5, kMostNotches = 1e3, kLargestSide = 65536;
 
-// An action without values.
+// Makes an action of a member function without arguments.
 template <auto kMember>
 void call(Session& session, const Message& /*message*/) {
   (session.*kMember)();
@@ -90,13 +90,10 @@ std::span<const Verb> Session::verbs() {
        "wait"},
       {"reload", "R", "read the scene again, as a change of its file does; edits stay",
        call<&Session::reload>},
-      {"open",
-       "drop of a file",
-       "open the scene or model, or show the HDR or EXR image as the sky",
-       nullptr,
-       {},
-       false,
-       true},
+      {.name = "open",
+       .keys = "drop of a file",
+       .help = "open the scene or model, or show the HDR or EXR image as the sky",
+       .text = true},
       byFaces("panel", "P", "show the panel"),
       byFaces("keys", "H", "show the keys"),
       {"full-screen", "F11", "full screen"},
@@ -106,25 +103,27 @@ std::span<const Verb> Session::verbs() {
        [](S s, M) { s.close(); }},
 
       // These have controls instead of keys.
-      {"scene", "", "", [](S s, M m) { s.openShipped(m.text); }, {}, false, true},
+      {.name = "scene", .act = [](S s, M m) { s.openShipped(m.text); }, .text = true},
       {"time", "", "", [](S s, M m) { s.setTime(m.numbers[0]); }, {1, 0, 1e9}},
-      {"animation", "", "", [](S s, M m) { s.chooseAnimation(m.text); }, {}, false, true},
-      {"view", "", "", [](S s, M m) { s.chooseView(m.text); }, {}, false, true},
-      {"set", "", "", [](S s, M m) { s.chooseOption(m.name, m.text); }, {}, true, true},
-      {"effect",
-       "",
-       "",
-       [](S s, M m) { s.chooseEffect(m.name, m.numbers[0] > 0); },
-       {1, 0, 1},
-       true},
-      {"preset", "", "", [](S s, M m) { s.choosePreset(m.text); }, {}, false, true},
+      {.name = "animation", .act = [](S s, M m) { s.chooseAnimation(m.text); }, .text = true},
+      {.name = "view", .act = [](S s, M m) { s.chooseView(m.text); }, .text = true},
+      {.name = "set",
+       .act = [](S s, M m) { s.chooseOption(m.name, m.text); },
+       .named = true,
+       .text = true},
+      {.name = "effect",
+       .act = [](S s, M m) { s.chooseEffect(m.name, m.numbers[0] > 0); },
+       .numbers = {1, 0, 1},
+       .named = true},
+      {.name = "preset", .act = [](S s, M m) { s.choosePreset(m.text); }, .text = true},
       {"measure", "", "", call<&Session::measure>},
       {"aside", "", "", call<&Session::lookFromAside>},
       {"forget", "", "", call<&Session::forgetRays>},
       {"dismiss", "", "", [](S s, M) { s.state_.error.clear(); }},
 
-      // The server does these: the number of a page and of the message that it has drawn, and the
-      // width and height of its picture and the pixels of it for each of CSS.
+      // The server carries out the last two. "ack" has the numbers of a page and of the message
+      // that it has drawn; "size" has the width and height of its picture, and pixels per CSS
+      // pixel.
       {"ack", "", "", nullptr, {2, 0, 4e9}},
       {"size", "", "", nullptr, {3, 0.1, 8192}}};
   return kVerbs;

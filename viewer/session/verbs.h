@@ -1,4 +1,4 @@
-// What a user can ask the viewer for. One table of verbs holds their names, keys, help and actions.
+// What a user can ask the viewer for. One table of verbs holds names, keys, help and actions.
 // The keys of the window, the lines that the page sends, the overlay of H and the list of keys in
 // viewer/README.md follow from it.
 #pragma once
@@ -24,11 +24,11 @@ struct Numbers {
 
 struct Verb {
   std::string_view name;
-  std::string_view keys, help;  // its row in the list of keys; empty: it has none
-  // Does it; null: that is left to the window, and to the page if `onPage` is set.
+  std::string_view keys = {}, help = {};  // its row in the list of keys; empty: it has none
+  // Carries out the verb. Null leaves it to the window, and to the page if `onPage` is set.
   void (*act)(Session& session, const Message& message) = nullptr;
   Numbers numbers = {};
-  bool named = false;  // an option or an effect is named before the numbers
+  bool named = false;  // the name of an option or an effect comes before the numbers
   bool text = false;   // a text follows, which may hold blanks
   bool onPage = false;
 };
@@ -45,8 +45,8 @@ struct Message {
 
 inline constexpr std::size_t kMessageBytes = 1 << 14, kMessageLines = 256;
 
-// Reads lines. Throws Error(usage) that names the line and what was expected; then none of them
-// counts.
+// Reads lines. Throws Error(usage), which names the line and what was expected, and then returns
+// none of them.
 std::vector<Message> readMessages(std::string_view body);
 
 // Returns the line that a key stands for: "camera 2" for "3". Empty if there is none.

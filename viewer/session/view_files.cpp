@@ -31,11 +31,14 @@ void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
     forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
     return isSame(known);
   };
+
   const auto first = scene.cameras.begin(), end = scene.cameras.end();
   auto named = std::find_if(first, end, isSame);
   if (named == end) named = std::find_if(first, end, canBecome);
   if (named == end) named = first;
   if (named != first) options.camera = named->name;
+
+  // Members that differ from those of the named camera become options of their own.
   forEachCameraOption([&](auto option, auto member) {
     using Option = typename std::remove_cvref_t<decltype(options.*option)>::value_type;
     if (camera.*member == (*named).*member) return;
@@ -70,7 +73,7 @@ std::string commandWith(std::string text, RenderOptions options, const RenderOpt
   return text;
 }
 
-// Returns whether these settings name a sky outside the scene's folder.
+// Returns true if these settings name a sky outside the scene's folder.
 bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
                      const std::vector<std::string>& settings) {
   Json root = Json::object();
@@ -91,10 +94,11 @@ Json editedFile(JsonDocument document, const SceneName& name, const EditedScene&
   return std::move(document.root);
 }
 
-// Cameras, lights and sky were supplied, or come from the model's own file; a scene has to state
-// them.
+// Makes a scene that holds the model. Its cameras, lights and sky were supplied or come from the
+// model's own file, so the scene has to state them.
 Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& edited) {
   Json root{{"whit", 1}, {"size", {scene.width, scene.height}}};
+
   std::vector<std::string> names;
   for (const Camera& camera : scene.cameras) names.push_back(camera.name);
   names = distinctNames(names);
@@ -102,6 +106,7 @@ Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& e
   for (std::size_t i = 0; i < names.size(); ++i) {
     root["cameras"][names[i]] = describe(scene.cameras[i]);
   }
+
   root["lights"] = describe(edited.lights);
   root["ambient"] = describe(edited.ambient);
   root["sky"] = describe(edited.sky);
@@ -113,10 +118,12 @@ Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& e
     const std::string& section = setting.tokens.front();
     if (section == "materials" || section == "variant") applySceneSetting(setting, item);
   }
-  // Models that scene files name are not moved by themselves.
+
+  // A model alone is moved to the origin when it is read, but one in a scene file is not.
   if (const Vec3d origin = scene.origin; origin != Vec3d()) {
     item.root["transform"] = {{"translate", {-origin.x, -origin.y, -origin.z}}};
   }
+
   root["scene"] = Json::array({std::move(item.root)});
   return root;
 }
@@ -125,12 +132,15 @@ Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& e
 // took from the old first camera.
 void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   if (sameView(camera, scene.cameras.front())) return;
+
   const Json others = root.contains("cameras") ? root["cameras"] : Json::object();
   std::string name = "saved";
   for (int i = 2; others.contains(name); ++i) name = "saved " + std::to_string(i);
+
   Json cameras{{name, describe(camera)}};
   for (const auto& [known, value] : others.items()) cameras[known] = value;
   root["cameras"] = std::move(cameras);
+
   if (scene.cameraPath.empty()) return;
   Json& first = root["path"][0];
   const Json begin = describe(scene.cameraPath.front().camera);
@@ -144,6 +154,7 @@ void stateOptions(const RenderOptions& chosen, RenderOptions& stated, Json& root
   for (const std::string& name : sceneOptionNames()) {
     const std::string value = optionText(chosen, name);
     if (name == "quality" || value == optionText(stated, name)) continue;
+
     setOption(stated, name, value);
     const bool isNumber = name != "background" && Json::accept(value);
     root["options"][name] = isNumber ? Json::parse(value) : Json(value);
@@ -187,6 +198,8 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
   if (frame.request.seconds && !frame.animation.empty()) {
     text += " --animation " + quoted(frame.animation);
   }
+
+  // The edits of the scene, and the permission to read a sky from elsewhere.
   const EditedScene& edited = *frame.edited;
   for (const std::string& setting : edited.settings) text += " --set " + quoted(setting);
   if (!edited.givenSky.empty()) text += " --sky " + quoted(edited.givenSky);
@@ -203,15 +216,19 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   const EditedScene& edited = *frame.edited;
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
+
+  // The scene's own file with the edits, or a scene that holds the model.
   LoadOptions read = load;
   read.settings = edited.settings;
   std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
   Json root = document ? editedFile(std::move(*document), parsed, edited)
                        : sceneOfModel(path, scene, edited);
   lookThrough(camera, scene, root);
+
   RenderOptions stated;
   if (document) applySceneOptions(scene.options, {}, stated);
   stateOptions(chosen, stated, root);
+
   const auto nameOf = [&](int i) {
     return scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
   };
@@ -219,6 +236,7 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   const bool leavesFolder = movePaths(root, path.parent_path(), ".");
   const cli::WriteScope scope;
   writeTextFile(file, root.dump(2) + "\n");
+
   resetOwnSize(load, scene, options);
   return {file, commandWith(renderOf(file, saved), options, stated) +
                     (leavesFolder ? " --allow-outside" : "")};
@@ -267,7 +285,7 @@ void writeKeptSettings(const KeptSettings& kept) try {
   const cli::WriteScope scope;
   writeTextFile(file, json.dump(2) + "\n");
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "whit-view: the settings are not kept: %s\n",
+  std::fprintf(stderr, "whit-view: the viewer's settings were not saved: %s\n",
                printable(error.what()).c_str());
 }
 

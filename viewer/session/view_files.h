@@ -37,8 +37,8 @@ std::string savePicture(const TracedFrame& frame);
 
 // Settings that stay from one run to the next, in whit/viewer.json below $XDG_CONFIG_HOME.
 struct KeptSettings {
-  bool panel = false;               // is shown
-  std::string tab = "picture";      // of the panel
+  bool panel = false;               // the panel is shown
+  std::string tab = "picture";      // the panel's tab
   ImageSize window;                 // zero: the user has not changed it
   std::vector<std::string> recent;  // names of scenes, the last one first
 };

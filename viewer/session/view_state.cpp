@@ -12,7 +12,10 @@ namespace {
 // All scales are multiples of 1/16.
 std::string fraction(double scale) {
   int above = static_cast<int>(std::lround(scale * 16)), below = 16;
-  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
+  while (above > 0 && above % 2 == 0 && below > 1) {
+    above /= 2;
+    below /= 2;
+  }
   return below == 1 ? "full" : formatted("%d/%d", above, below);
 }
 
@@ -20,13 +23,13 @@ std::string fraction(double scale) {
 
 Selection select(const RayPick& pick) {
   Selection selection;
-  const RayNode& met = pick.rays.packets.nodes.front();
-  if (met.triangle == kMiss) return selection;
-  selection.material = met.material;
+  const RayNode& primary = pick.rays.packets.nodes.front();
+  if (primary.triangle == kMiss) return selection;
+  selection.material = primary.material;
 
   // The selected light is the one that adds most to the surface in its largest channel.
   double most = 0;
-  for (const LightContribution& light : met.lights) {
+  for (const LightContribution& light : primary.lights) {
     const double radiance = maxComponent(light.radiance);
     if (radiance <= most || light.light == kAmbientLight) continue;
 

@@ -1,4 +1,4 @@
-// The state is all that the window and the page show and that the user has chosen.
+// The state of the viewer: all that the window and the page show, and all that the user has chosen.
 #pragma once
 
 #include <limits>
@@ -30,21 +30,21 @@ struct ViewState {
   Timeline timeline;
   std::optional<std::size_t> followed;  // the scene's camera whose view is shown
   EditedScene edited;                   // with edits that are not traced yet
-  Sky ownSky;                           // of the scene as it was read
+  Sky ownSky;                           // the scene's sky as it was read
 
   TracedFrame shown;
   std::optional<UnfinishedFrame> unfinished;  // is shown in place of the frame
   std::vector<KnobCost> costs;                // measured so far at the view of the last frame
   double pictureMs = 0;  // mean time between pictures in motion; 0: nothing moves
   bool sharp = false;    // the frame shown gets no finer
-  RayPick rays;          // of the pixel that was clicked
+  RayPick rays;          // the rays of the pixel that was clicked
   Selection selected;
   int selections = 0;  // number of clicks that have selected something
 
   std::string message;                          // empty when its time is over
   std::string error;                            // stays until it is dismissed or a scene is read
   int errors = 0;                               // number of errors so far
-  ExitStatus status = ExitStatus::checkFailed;  // of a program that ends with the last error
+  ExitStatus status = ExitStatus::checkFailed;  // exit status if the last error ends the program
 };
 
 // "1/4, 16 samples, 30 frames/s": what the picture has, and how often it changes.

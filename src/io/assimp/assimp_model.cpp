@@ -269,8 +269,8 @@ void noteLog(const char* message, char* isMended) {
   if (std::strstr(message, "ertex index is out of range")) *isMended = 1;
 }
 
-// Writes a 1, the notes, how many faces are left out and the GLB, or a 0 and the library's error
-// message.
+// Converts the model and writes the answer: a 1, the notes, the number of faces left out and the
+// GLB, or a 0 and the library's error message.
 void convert(const std::string& bytes, const std::string& extension, const ConfinedWriter& write) {
   const auto fail = [&](const std::string& why) {
     const char failed = 0;
@@ -359,7 +359,8 @@ ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes
   if (!answer.failure.empty()) {
     model.failure = answer.failure;
   } else if (reply.size() < kHead || reply[0] != 1) {
-    model.failure = reply.empty() ? "it said nothing" : "it reports: " + excerpt(reply.substr(1));
+    model.failure =
+        reply.empty() ? "its reader gave no answer" : "it reports: " + excerpt(reply.substr(1));
   } else {
     std::memcpy(&model.notes, reply.data() + 1, sizeof model.notes);
     std::memcpy(&model.badFaces, reply.data() + 1 + sizeof model.notes, sizeof model.badFaces);
@@ -419,7 +420,8 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string bytes = readFile(source.path, source.budget.left() / 2);
   const MemoryHold hold(&source.budget, bytes.size(), 1, file);
 
-  // A damaged file may take the library any memory, but a sound one little beside its size.
+  // A damaged file can make the library take any amount of memory. A sound one takes little
+  // compared with its size.
   const std::uint64_t most = (512 + bytes.size() / 2048) << 20;
   const ConvertedModel model =
       convertByAssimp(file, bytes, std::min(most, source.budget.left() / 2));

@@ -60,11 +60,16 @@ struct StridedElements {
   const std::uint8_t* at(std::uint64_t i) const { return first + i * stride; }
 };
 
-// Elements of the buffer view that `source`, an accessor or a part of a sparse one, refers to.
-StridedElements elementsWithin(const GltfDocument& document, const JsonValue& source, bool strided,
-                               std::uint64_t elementBytes, std::uint64_t count) {
+// Only the elements of an accessor itself follow the stride of their buffer view.
+enum class Spacing { packed, byView };
+
+// Finds the elements of the buffer view that `source`, an accessor or a part of a sparse one,
+// refers to.
+StridedElements elementsWithin(const GltfDocument& document, const JsonValue& source,
+                               Spacing spacing, std::uint64_t elementBytes, std::uint64_t count) {
   const GltfBufferView view = document.view(source.need("bufferView"));
-  const std::uint64_t stride = strided && view.stride > 0 ? view.stride : elementBytes;
+  const bool hasStride = spacing == Spacing::byView && view.stride > 0;
+  const std::uint64_t stride = hasStride ? view.stride : elementBytes;
   const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].wholeOr(0);
   if (stride < elementBytes) {
     document.list("bufferViews")[view.index]["byteStride"].fail(
@@ -99,7 +104,7 @@ class AccessorReader {
       count_ = bytes->size() / bytes_;  // the accessor's own count is often wrong
       dense_ = {bytes->data(), bytes_};
     } else if (accessor["bufferView"].exists()) {
-      dense_ = elementsWithin(document, accessor, true, bytes_, count_);
+      dense_ = elementsWithin(document, accessor, Spacing::byView, bytes_, count_);
     } else if (count_ > kZeroElementLimit) {
       accessor.fail(concat("a buffer view for ", count_, " elements"), "none");
     }
@@ -123,9 +128,10 @@ class AccessorReader {
         sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
 
     const ComponentType type = componentTypeOf(replaced.need("componentType"), true);
-    const StridedElements which = elementsWithin(document_, replaced, false, type.bytes, count);
+    const StridedElements which =
+        elementsWithin(document_, replaced, Spacing::packed, type.bytes, count);
     const StridedElements values =
-        elementsWithin(document_, sparse.need("values"), false, bytes_, count);
+        elementsWithin(document_, sparse.need("values"), Spacing::packed, bytes_, count);
 
     for (const auto i : indices(count)) {
       const std::uint32_t index = type.index(which.at(i));

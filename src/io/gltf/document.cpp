@@ -219,8 +219,10 @@ std::optional<Bytes> GltfDocument::decoded(const JsonValue& value) const {
 }
 
 void GltfDocument::checkExtensions() const {
-  const JsonValue version = root().need("asset").need("version");
+  const JsonValue asset = root().need("asset"), version = asset.need("version");
   if (!version.textOr("").starts_with("2.")) version.fail("2.0");
+  const JsonValue least = asset["minVersion"];
+  if (least.textOr("2.0") > "2.0") least.fail("at most 2.0, which is the version that can be read");
 
   for (const JsonValue& required : list("extensionsRequired").elements()) {
     const std::string extension = required.textOr("");
@@ -243,7 +245,9 @@ std::string GltfDocument::decodeUri(const JsonValue& uri) const {
   if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
 
   const std::string data = percentDecoded(std::string_view(text).substr(comma + 1));
-  const bool isBase64 = std::string_view(text).substr(0, comma).ends_with(";base64");
+  constexpr std::string_view kBase64 = ";base64";
+  const std::size_t mark = std::max(comma, kBase64.size()) - kBase64.size();
+  const bool isBase64 = strncasecmp(&text[mark], kBase64.data(), kBase64.size()) == 0;
   return isBase64 ? base64Decoded(data, where) : data;
 }
 

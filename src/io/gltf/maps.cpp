@@ -129,12 +129,12 @@ class Stretched {
   Stretched(const RawImage* raw, std::vector<Between> columns, std::vector<Between> rows)
       : raw_(raw), columns_(std::move(columns)), rows_(std::move(rows)) {}
 
-  // Fill a row of white texels with linear colors, or with a channel of valuesAt().
+  // Fill a row of white texels with linear colors, or with a channel; see valueAt().
   void fillColors(std::size_t y, std::vector<Rgb>& row) const {
     fill(y, row, [this](std::size_t i) { return linearPixel(*raw_, i); });
   }
   void fillValues(std::size_t y, std::size_t channel, std::vector<float>& row) const {
-    fill(y, row, [=, this](std::size_t i) { return valuesAt(*raw_, i)[channel]; });
+    fill(y, row, [=, this](std::size_t i) { return valueAt(*raw_, i, channel); });
   }
 
  private:
@@ -148,18 +148,18 @@ class Stretched {
   std::vector<Between> columns_, rows_;
 };
 
-// Holds the mean of a channel of valuesAt().
+// Holds the mean of a channel; see valueAt().
 struct ChannelMean {
   float mean = 0;
   bool varies = false;
 };
 ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
-  const float first = valuesAt(raw, 0)[channel];
+  const float first = valueAt(raw, 0, channel);
   ChannelMean result{first};
   double sum = 0;
 
   for (const auto i : indices(raw.pixels())) {
-    const float value = valuesAt(raw, i)[channel];
+    const float value = valueAt(raw, i, channel);
     sum += value;
     result.varies = result.varies || value != first;
   }
@@ -168,13 +168,19 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   return result;
 }
 
+Rgb meanColor(const RawImage& raw) {
+  RgbD sum;
+  for (const auto i : indices(raw.pixels())) sum += RgbD(linearPixel(raw, i));
+  return Rgb(sum / static_cast<double>(raw.pixels()));
+}
+
 // Masks of foliage have soft edges, which take less than half of their texels, and codes near 0 and
 // 1 after JPEG. With more gray texels a map means how much of the surface is there.
 bool isMostlyGray(const RawImage& raw, std::size_t channel) {
   constexpr float kNoise = 16.0f / 255;
   std::size_t gray = 0;
   for (const auto i : indices(raw.pixels())) {
-    const float value = valuesAt(raw, i)[channel];
+    const float value = valueAt(raw, i, channel);
     if (value > kNoise && value < 1 - kNoise) ++gray;
   }
   return gray > raw.pixels() / 2;
@@ -266,12 +272,11 @@ struct BakedImages {
   std::array<Stretched, kBakeImages> stretched;
 };
 
-BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warnings& warnings) {
+BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, bool metalVaries,
+                    Warnings& warnings) {
   BakedImages baked;
   const bool f0 = m.bakesSpecular() && maxComponent(m.f0(Rgb(1.0f), 1)) > 0;
-  const auto& metals = images[kMetallicRoughness];
-  const bool mixes = m.metallic > 0 && metals && meanOf(*metals, 2).varies;
-  const bool counts[] = {true, mixes, f0, f0, m.variesTransmission()};
+  const bool counts[] = {true, m.metallic > 0 && metalVaries, f0, f0, m.variesTransmission()};
 
   for (const auto i : indices(images)) {
     if (!images[i] || !counts[i]) continue;
@@ -307,7 +312,15 @@ BakedImages stretch(const GltfMaterial& m, const GltfBakeImages& images, Warning
 // size. Throws Error(limit) where the textures are larger than the limits allow.
 Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
             Warnings& warnings, GltfMeans& means) {
-  const BakedImages baked = stretch(m, images, warnings);
+  // Factors of the material follow from the means of the images.
+  ChannelMean metalness{means.metallic};
+  if (images[kMetallicRoughness]) metalness = meanOf(*images[kMetallicRoughness], 2);
+  means.metallic = metalness.mean;
+  if (images[kBase]) means.base = meanColor(*images[kBase]);
+  if (images[kSpecular]) means.specular = meanOf(*images[kSpecular], 3).mean;
+  if (images[kSpecularColor]) means.specularColor = meanColor(*images[kSpecularColor]);
+
+  const BakedImages baked = stretch(m, images, metalness.varies, warnings);
   const auto& [bases, metals, speculars, tints, clears] = baked.stretched;
   const int width = baked.width, height = baked.height;
   const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
@@ -328,9 +341,9 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const bool mixesDiffuse = diffuseMap && (isDimmed || !copiesBase(kGltfDiffuse));
   const bool mixesSpecular = specularMap && (m.bakesSpecular() || !copiesBase(kGltfSpecular));
 
-  // Factors of the material follow from the means of the images.
-  RgbD colors, tintSum;
-  double metallic = 0, strengths = 0;
+  maps[kGltfAlpha] = bakeAlpha(m, images[kBase].get(), limits, means);
+  if (!mixesDiffuse && !mixesSpecular && !transmissionMap) return maps;
+
   std::size_t i = 0;
   std::vector<Rgb> baseRow(width, Rgb(1.0f)), tintRow = baseRow;
   std::vector<float> metalRow(width, 1.0f), strengthRow = metalRow, clearRow = metalRow;
@@ -343,13 +356,8 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
     clears.fillValues(y, 0, clearRow);
 
     for (const auto x : indices(baseRow)) {
-      const Rgb base = baseRow[x], tint = tintRow[x];
-      const float strength = strengthRow[x], metal = m.metallic * metalRow[x];
-
-      colors += RgbD(base);
-      metallic += metalRow[x];
-      strengths += strength;
-      tintSum += RgbD(tint);
+      const Rgb base = baseRow[x];
+      const float metal = m.metallic * metalRow[x];
 
       // Only light that is neither reflected by metal nor transmitted is reflected diffusely.
       const float clear = clearRow[x], rest = 1 - metal;
@@ -363,21 +371,14 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
 
       // F0 is blended between the dielectric's and the base color of the metal.
       if (mixesSpecular) {
-        const Rgb f0 =
-            m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
+        const Rgb f0 = m.bakesSpecular()
+                           ? m.f0(tintRow[x], strengthRow[x]) * (1 - metal) + m.base * base * metal
+                           : base;
         specularMap->texels[i] = encodeColorTexel(f0);
       }
       ++i;
     }
   }
-
-  const double texels = static_cast<double>(width) * height;
-  means.base = Rgb(colors / texels);
-  means.metallic = static_cast<float>(metallic / texels);
-  means.specular = static_cast<float>(strengths / texels);
-  means.specularColor = Rgb(tintSum / texels);
-
-  maps[kGltfAlpha] = bakeAlpha(m, images[kBase].get(), limits, means);
   return maps;
 }
 

@@ -36,11 +36,13 @@ void readUvTransform(const JsonValue& t, GltfUvMap& uv) {
   uv.set = readSet(t["texCoord"], uv.set);
 }
 
-// Reads a reference to a texture; none where `info` does not exist.
+// Reads a reference to a texture. The result does not exist if `info` does not.
 GltfTexture readTexture(const GltfDocument& document, const std::string& where,
                         const JsonValue& info) {
   GltfTexture result;
   if (!info.exists()) return result;
+
+  // The image of the texture, or its WebP version if this build reads that.
   const JsonValue textures = document.list("textures"), samplers = document.list("samplers");
   const JsonValue texture = textures[info.need("index").indexInto(textures).value_or(0)];
   const JsonValue webp = texture["extensions"]["EXT_texture_webp"]["source"];
@@ -50,6 +52,7 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
     document.warnings().add("texture in a format that is not supported left out", where);
     return result;
   }
+
   if (const auto index = texture["sampler"].indexInto(samplers)) {
     const JsonValue sampler = samplers[*index];
     result.wrapU = readWrap(sampler["wrapS"]);
@@ -57,6 +60,7 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
     constexpr std::uint64_t kNearest = 9728;
     result.nearest = sampler["magFilter"].wholeOr(0) == kNearest;
   }
+
   result.uv.set = readSet(info["texCoord"], 0);
   const JsonValue transform = info["extensions"]["KHR_texture_transform"];
   if (transform.exists()) readUvTransform(transform, result.uv);

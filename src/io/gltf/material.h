@@ -74,8 +74,8 @@ struct GltfMaterial {
   bool normalsMayBeHeights = false;  // set for MTL: a gray normalMap holds heights
   bool maskMayBlend = false;         // set for MTL: a mask that is mostly gray is coverage
 
-  // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
-  // first that differ from them (equal where none do).
+  // The coordinates of the maps that are looked up texel by texel: those of the first map, and the
+  // first ones that differ from them (or the same again if none differ).
   struct Coordinates {
     GltfUvMap first, second;
     bool areTwo() const { return !(first == second); }
@@ -87,7 +87,7 @@ struct GltfMaterial {
   bool mixesMetal() const {
     return metallic > 0 && (metallicRoughnessMap.exists() || (baseMap.exists() && metallic < 1));
   }
-  // The reflectance at normal incidence of what is no metal, where maps have these values.
+  // Returns the reflectance at normal incidence of what is no metal, where maps have these values.
   Rgb f0(const Rgb& color, float strength) const {
     return min(max(specularColor * color, Rgb(0.0f)), Rgb(1.0f)) * (f90 * strength);
   }
@@ -97,14 +97,17 @@ struct GltfMaterial {
   }
   // True if the map of specular reflectance holds all of it.
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
-  // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
+  // Returns the texture whose coordinates diffuse and specular reflectance are looked up with. It
+  // does not exist if there is no such map.
   const GltfTexture& surfaceMap() const;
-  // True if the map of diffuse reflectance lacks what passes, and if a map holds what passes.
+  // True if a texture of its own varies the transmission.
   bool variesTransmission() const { return transmission > 0 && transmissionMap.exists(); }
+  // True if the transmission needs a map: of that texture, the base color's or the metalness.
   bool bakesTransmission() const {
     return variesTransmission() || (transmission > 0 && (baseMap.exists() || mixesMetal()));
   }
-  // A clearcoat's reflection is added to that of the base, so that no map can be for both.
+  // True if a map may multiply the mirror's reflectance. A clearcoat adds its reflection to that of
+  // the base, and no map fits both.
   bool mirrorsByMap() const { return clearcoat == 0 && !mirrorIsApart; }
   bool variesRoughness() const { return roughnessMap.exists() && roughness > 0; }
   bool isMapped() const {
@@ -149,7 +152,7 @@ std::optional<Repeats> repeatsOf(const GltfMaterial& material, const GltfTexture
 // nor be resampled.
 bool lacksCoordinates(const GltfMaterial& material);
 
-// The Material, without its maps:
+// Returns the Material, without its maps:
 // - diffuse is the base color of what is neither metal nor transmission. Clearcoat and lobe reduce
 //   it by what they reflect (scene/material.h).
 // - specular, the lobe, is f0 = ((ior - 1) / (ior + 1))^2 or the base color of metal, texel by

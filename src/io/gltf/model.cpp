@@ -27,7 +27,8 @@ void checkLength(std::size_t found, std::size_t expected, const JsonValue& attri
   attribute.fail(concat("as many as positions, ", expected), std::to_string(found));
 }
 
-// Empty where there is no such attribute, or nothing that it belongs to.
+// Reads an attribute of vertices. Returns an empty list if there is no such attribute, or no
+// vertex.
 std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attribute,
                              std::size_t expected) {
   if (!attribute.exists() || expected == 0) return {};
@@ -53,7 +54,8 @@ void readTargets(const GltfDocument& document, const JsonValue& targets, Deforma
   }
 }
 
-// The last joint is the node that shows the mesh; it holds the vertices that have no weights.
+// Reads which joints hold each vertex, and by what weights. The last joint is the node that shows
+// the mesh; it holds the vertices without weights.
 void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformation& to) {
   const JsonValue attributes = primitive["attributes"];
   const std::string where = primitive.where();
@@ -70,6 +72,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
     checkLength(weights.back().size() / 4, count, w);
   }
 
+  // The weights of a vertex are kept as they are; those that cannot be used are left out.
   document.budget().charge(
       count, sizeof(std::uint32_t) + (4 * joints.size() + 1) * sizeof(Influence), where);
   to.firstInfluence.push_back(0);
@@ -106,6 +109,8 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
   own.normals = mesh.normals;
   readTargets(document, primitive["targets"], own);
   if (own.skeleton) readSkin(document, primitive, own);
+
+  // The mesh at the start decides the origin of all primitives.
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
   if (!origin) {
     Box box;
@@ -113,16 +118,20 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
     origin = originOf({Vec3d(box.lower), Vec3d(box.upper)});
   }
   own.origin = *origin;
+
   if (own.origin != Vec3d()) start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
+
+  // Faces that a skin mirrors are turned back.
   for (auto& triangle : mesh.triangles) {
     if (turnsOver(start.sides, triangle)) std::swap(triangle[1], triangle[2]);
   }
   if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
 }
 
-// The material of a primitive, in the variant of the file that was chosen (KHR_materials_variants).
+// Returns the material of a primitive in the variant of the file that was chosen
+// (KHR_materials_variants).
 JsonValue materialOf(const JsonValue& primitive, std::optional<std::size_t> variant) {
   const JsonValue mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
   for (const JsonValue& mapping : mappings.elements()) {
@@ -159,7 +168,7 @@ class PrimitiveReader {
         source_(materials[material_]),
         coordinates_(source_.coordinates()) {}
 
-  // Returns false where nothing is to be seen.
+  // Reads the primitive into `mesh`. Returns false if there is nothing to see.
   bool read(std::optional<Vec3d>& origin, Mesh& mesh) {
     const JsonValue position = attributes_["POSITION"];
     if (mode_ < kTriangles || !position.exists()) {
@@ -167,11 +176,14 @@ class PrimitiveReader {
                               : "primitive without positions left out");
       return false;
     }
+
     mesh.positions = readVectors(document_, position);
     mesh.normals = vectorsOf(document_, attributes_["NORMAL"], mesh.positions.size());
     mesh.uvs = textureCoordinates(mesh, coordinates_.first);
+
     if (coordinates_.areTwo()) {
-      // Never empty: a scene without second coordinates looks all maps up with the first.
+      // The second coordinates are never empty, because a scene without them looks all maps up with
+      // the first.
       mesh.secondUvs = textureCoordinates(mesh, coordinates_.second);
       if (mesh.secondUvs.empty()) {
         document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
@@ -180,6 +192,7 @@ class PrimitiveReader {
     }
     readVertexColors(mesh);
     if (attributes_["COLOR_1"].exists()) warn("second set of vertex colors left out");
+
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
     if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, origin, mesh);
@@ -194,6 +207,7 @@ class PrimitiveReader {
     const bool byRamp = source_.alphaByVertex && !source_.isMapped();
     if (byRamp) mesh.uvs.assign(mesh.positions.size(), {alphaRampU(1), 0.5f});
     if (!color.exists()) return;
+
     GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
     checkLength(mesh.colors.size(), mesh.positions.size(), color);
@@ -206,6 +220,7 @@ class PrimitiveReader {
       return;
     }
 
+    // Alpha becomes a texture coordinate: of the ramp, or of the second set beside maps.
     const std::vector<float> rgba = readTuples(document_, color, 4);
     if (!byRamp) {
       document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
@@ -221,7 +236,8 @@ class PrimitiveReader {
     }
   }
 
-  // Vertex colors multiply the reflection as a whole, that of metal, or not at all.
+  // Warns of materials that vertex colors tint wrongly: colors multiply the specular reflection as
+  // a whole, as that of metal, or not at all.
   void warnOfHalfMetal(const Mesh& mesh) {
     const bool isInPart = source_.mixesMetal() || (source_.metallic > 0 && source_.metallic < 1);
     const auto isWhite = [](const Rgb& color) { return color == Rgb(1.0f); };
@@ -230,7 +246,7 @@ class PrimitiveReader {
         "vertex colors of a partly metallic material: they multiply all of its reflection or none");
   }
 
-  // Empty where the primitive does not have this set.
+  // Returns the coordinates as the mesh has them; empty if the primitive does not have this set.
   std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
     const JsonValue coordinates = attributes_[concat("TEXCOORD_", uv.set)];
     if (!coordinates.exists()) return {};
@@ -256,12 +272,13 @@ class PrimitiveReader {
     return all;
   }
 
-  // The winding of the specification; indices that are out of range are dropped later.
+  // Makes triangles with the winding of the specification. Indices out of range are dropped later.
   void connect(Mesh& mesh, const std::vector<std::uint32_t>& c) {
     const bool separate = mode_ == kTriangles;
     const std::size_t count =
         separate ? c.size() / 3 : c.size() - std::min<std::size_t>(c.size(), 2);
     if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
+
     document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
     mesh.triangles.reserve(count);
     if (mode_ == kTriangleStrip) {
@@ -287,7 +304,8 @@ class PrimitiveReader {
   GltfMaterial::Coordinates coordinates_;
 };
 
-// Bodies of nodes that move, each in that of its parent, where the first of what it holds comes.
+// Makes a body for each node that moves, inside that of its parent. The body is placed there when
+// the first thing that it holds is.
 class MoverBodies {
  public:
   MoverBodies(const Rig& movers, SceneLayout& layout, Body& scene)
@@ -320,7 +338,7 @@ class GltfModel : public Model {
       : document_(source.path, bytes, source.rules, source.budget, source.warnings),
         sources_(readGltfMaterials(document_)),
         maps_(document_.images(), document_.warnings()),
-        stage_(readGltfNodes(document_, source.instant)) {
+        content_(readGltfNodes(document_, source.instant)) {
     findVertexAlpha();
     for (const GltfMaterial& material : sources_) materials_.push_back(shadedAs(material, {}));
   }
@@ -341,13 +359,14 @@ class GltfModel : public Model {
         [source = sources_[i]](const GltfMeans& means) { return shadedAs(source, means); });
   }
 
-  // A body for each mesh of the file, which nodes share unless they bend it.
+  // Makes a body for each mesh of the file, which nodes share unless they bend it.
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     std::map<std::size_t, std::uint32_t> bodies;
     bool empty = true;
     Body all;
-    MoverBodies movers(stage_.movers, layout, all);
-    for (const GltfPlacedMesh& placed : stage_.meshes) {
+    MoverBodies movers(content_.movers, layout, all);
+
+    for (const GltfPlacedMesh& placed : content_.meshes) {
       const auto known = bodies.find(placed.mesh);
       const bool shared = !placed.isDeformed() && known != bodies.end();
       const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
@@ -358,35 +377,36 @@ class GltfModel : public Model {
                                  .toParent = placed.toMover,
                                  .item = std::make_shared<const std::string>(nameOf(placed))});
     }
+
     if (empty) {
       const char* why = "its meshes have no triangles";
-      if (stage_.meshes.empty()) why = "no node shows a mesh";
+      if (content_.meshes.empty()) why = "no node shows a mesh";
       if (document_.list("meshes").size() == 0) why = "no meshes";
       warnNothingToDraw(why, document_.name(), document_.warnings());
     }
     return all;
   }
 
-  std::size_t viewSize() const override { return stage_.cameras.size() + stage_.lights.size(); }
+  std::size_t viewSize() const override { return content_.cameras.size() + content_.lights.size(); }
 
   // The picture takes the first camera's aspect ratio.
   void addView(SceneDescription& scene, const Affine& toWorld) override {
     constexpr double kNarrowest = 0.1, kWidest = 10;
-    if (stage_.aspect > 0 && scene.cameras.empty()) {
-      const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
+    if (content_.aspect > 0 && scene.cameras.empty()) {
+      const double aspect = std::clamp(content_.aspect, kNarrowest, kWidest);
       scene.width = static_cast<int>(std::lround(aspect * scene.height));
     }
 
     const auto first = size32(scene.motion.rig);
-    for (RigNode node : stage_.movers) {
+    for (RigNode node : content_.movers) {
       putInParent(node.parent, node.toParent, first, toWorld, scene);
       scene.motion.rig.push_back(std::move(node));
     }
 
-    for (auto [camera, map, mover] : stage_.cameras) {
+    for (auto [camera, map, mover] : content_.cameras) {
       putInParent(mover, map, first, toWorld, scene);
       camera.eye = Vec3f(map.p);
-      // Far enough for the direction to survive the rounding of eye and at.
+      // `at` is so far away that the direction survives the rounding of both points.
       camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
       camera.up = Vec3f(normalized(map.y));
       const auto number = size32(scene.cameras);
@@ -394,7 +414,7 @@ class GltfModel : public Model {
       scene.cameras.push_back(camera);
     }
 
-    for (auto [light, map, mover] : stage_.lights) {
+    for (auto [light, map, mover] : content_.lights) {
       putInParent(mover, map, first, toWorld, scene);
       light.position = Vec3f(map.p);
       light.direction = Vec3f(-normalized(map.z));
@@ -407,8 +427,8 @@ class GltfModel : public Model {
   }
 
  private:
-  // The nodes that move are numbered from `first` on. What none of them carries is placed in the
-  // scene and moved to its origin here.
+  // Places a thing of the file in the scene. The nodes that move are numbered from `first` on
+  // there; what none of them carries is moved to the scene's origin.
   static void putInParent(std::uint32_t& parent, Affine& toParent, std::uint32_t first,
                           const Affine& toWorld, const SceneDescription& scene) {
     if (parent == kNoNode) {
@@ -427,9 +447,11 @@ class GltfModel : public Model {
         std::vector<JsonValue> users{primitive["material"]};
         const JsonValue variants = primitive["extensions"]["KHR_materials_variants"]["mappings"];
         for (const JsonValue& mapping : variants.elements()) users.push_back(mapping["material"]);
+
         for (const JsonValue& user : users) {
           const auto number = user.indexInto(document_.list("materials"));
           if (!number || !color.exists()) continue;
+
           GltfMaterial& material = sources_[*number];
           const bool mayBlend =
               material.alphaMode != GltfMaterial::Alpha::opaque && !material.coordinates().areTwo();
@@ -445,6 +467,7 @@ class GltfModel : public Model {
                         const std::vector<std::uint32_t>& materials) const {
     const JsonValue source = document_.list("meshes")[placed.mesh];
     const std::string name = source["name"].textOr("");
+
     std::vector<Mesh> meshes;
     std::optional<Vec3d> origin;
     for (const JsonValue& primitive : source.need("primitives").elements()) {
@@ -453,13 +476,14 @@ class GltfModel : public Model {
       PrimitiveReader reader(document_, primitive, sources_, placed, variant);
       if (reader.read(origin, mesh)) meshes.push_back(std::move(mesh));
     }
+
     const std::uint32_t body = layout.add(name);
     addParts(std::move(meshes), materials, document_.name(), document_.budget(), layout.body(body));
     for (Placement& part : layout.body(body).placements) part.toParent.p = origin.value_or(Vec3d());
     return body;
   }
 
-  // The node's, or its mesh's.
+  // Returns the name of the node, or else that of its mesh.
   std::string nameOf(const GltfPlacedMesh& placed) const {
     std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
     if (!node.empty()) return node;
@@ -471,7 +495,7 @@ class GltfModel : public Model {
   std::vector<GltfMaterial> sources_;
   std::vector<Material> materials_;  // materials made from sources_
   GltfMapMaker maps_;
-  GltfStage stage_;
+  GltfContent content_;
 };
 
 }  // namespace

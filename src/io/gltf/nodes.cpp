@@ -84,6 +84,8 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   track.rotation = target.path == "rotation";
   track.components = components;
   track.times = readTimes(document, sampler.need("input"));
+
+  // A cubic key has a tangent before its value and another one behind it.
   const JsonValue output = sampler.need("output");
   const std::vector<float> values =
       readTuples(document, output, std::max<std::size_t>(target.components, 1));
@@ -105,11 +107,13 @@ using AllTracks = std::vector<GltfTracks>;  // tracks of each node
 AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
   AllTracks tracks(document.list("nodes").size());
   if (!instant.moves()) return tracks;
+
   const std::vector<Animation> all = listGltfAnimations(document);
   const auto played = std::ranges::find_if(all, [&](const Animation& animation) {
     return instant.animation.empty() || animation.name == instant.animation;
   });
   if (played == all.end()) return tracks;
+
   const JsonValue source = document.list("animations")[played - all.begin()];
   forEachChannel(document, source,
                  [&](std::size_t node, const Target& target, const JsonValue& sampler) {
@@ -141,7 +145,7 @@ Affine rotationOf(const Quaternion& q) {
           {}};
 }
 
-// Column by column.
+// Returns the map of a matrix that is stored column by column.
 Affine mapOf(const std::vector<double>& matrix) {
   const auto column = [&](std::size_t i) {
     return Vec3d{matrix[4 * i], matrix[4 * i + 1], matrix[4 * i + 2]};
@@ -190,11 +194,11 @@ class TreeReader {
         movable_(movable),
         seen_(nodes_.size()) {}
 
-  GltfStage read() {
+  GltfContent read() {
     findParents();
     for (const std::size_t root : roots()) visit(root, Affine(), kNoNode, 0);
     nameCameras();
-    return std::move(stage_);
+    return std::move(content_);
   }
 
  private:
@@ -207,7 +211,8 @@ class TreeReader {
     throwBadScene(nodes_[node].where(), concat("nested deeper than ", kGltfDepthLimit, " nodes"));
   }
 
-  // A node with two parents or that is its own ancestor is found by visit().
+  // Notes the parent of each node. Nodes with two parents, or that are their own ancestors, are
+  // refused by visit().
   void findParents() {
     parents_.assign(nodes_.size(), kTopmost);
     for (const auto i : indices(nodes_)) {
@@ -237,13 +242,16 @@ class TreeReader {
     refuseDepth(depth, index);
     if (seen_[index]) node.fail("a tree", "this node twice");
     seen_[index] = true;
+
+    // A node that moves carries what is below it, so maps begin anew there.
     RigNode own = nodeOf(index);
     const Affine map = own.motion ? Affine() : toMover * own.toParent;
     if (own.motion) {
       document_.budget().charge(1, 2 * sizeof(RigNode), node.where());
-      stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
-      mover = size32(stage_.movers) - 1;
+      content_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
+      mover = size32(content_.movers) - 1;
     }
+
     if (!isUsable(map)) {
       warn("node that flattens space left out", index);
       return;
@@ -257,10 +265,11 @@ class TreeReader {
     }
   }
 
-  // The node within its parent: it has a place or a motion.
+  // Returns the node within its parent, with a transform or a motion.
   RigNode nodeOf(std::size_t index) const {
     const std::vector<double> matrix = nodes_[index]["matrix"].numbers(16);
     const std::string name = concat("/nodes/", index);
+
     RigNode node;
     if ((*tracks_)[index].place()) {
       const auto at = [index, own = placeOf(index), all = tracks_](double seconds) {
@@ -270,6 +279,8 @@ class TreeReader {
     } else {
       node.toParent = matrix.empty() ? placeOf(index).map() : mapOf(matrix);
     }
+
+    // A node that is moved by hand has a motion in any case.
     if (!movable_.contains(name)) return node;
     if (!node.motion) node.motion = fixedMotion(node.toParent);
     return {kNoNode, Affine(), node.motion, name};
@@ -290,18 +301,18 @@ class TreeReader {
     const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
     const Deformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
-      stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
+      content_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
       return;
     }
     if (!copies.exists()) {
-      stage_.meshes.push_back({mesh, map, mover, deformation, index});
+      content_.meshes.push_back({mesh, map, mover, deformation, index});
       return;
     }
 
     for (const Affine& copy : readCopies(copies.need("attributes"))) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
-        stage_.meshes.push_back({mesh, toMover, mover, deformation, index});
+        content_.meshes.push_back({mesh, toMover, mover, deformation, index});
       } else {
         warn("copy of a mesh that is flattened left out", index);
       }
@@ -324,8 +335,8 @@ class TreeReader {
     return deformation;
   }
 
-  // Joints may come later in the tree than the meshes they hold. The last joint is the node that
-  // shows the mesh, for vertices without weights.
+  // Reads a skin. Its joints may come later in the tree than the meshes they hold. One more joint
+  // is added at the end, the node `showing` that shows the mesh: it holds vertices without weights.
   Deformation skinOf(std::size_t index, std::size_t showing) {
     const JsonValue skin = document_.list("skins")[index];
     const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
@@ -333,10 +344,13 @@ class TreeReader {
     std::vector<Deformation::Joint>& all = deformation.joints;
     Rig rig;
     std::map<std::size_t, std::uint32_t> places;
+
     for (const JsonValue& joint : joints.elements()) {
       all.push_back({placeJoint(joint.indexInto(nodes_).value_or(0), places, rig), Affine()});
     }
     if (all.empty()) joints.fail("at least one joint");
+
+    // Each joint has a matrix that maps the mesh into the joint's space.
     std::vector<float> numbers;
     if (inverse.exists()) numbers = readTuples(document_, inverse, 16);
     if (inverse.exists() && numbers.size() < 16 * all.size()) {
@@ -346,6 +360,7 @@ class TreeReader {
     for (std::size_t i = 0; i < all.size() && !numbers.empty(); ++i) {
       all[i].fromMesh = mapOf({numbers.begin() + 16 * i, numbers.begin() + 16 * (i + 1)});
     }
+
     all.push_back({placeJoint(showing, places, rig), Affine()});
     deformation.skeleton = std::make_shared<const Rig>(std::move(rig));
     return deformation;
@@ -360,6 +375,8 @@ class TreeReader {
       refuseDepth(chain.size(), index);
       chain.push_back(at);
     }
+
+    // The chain leads from the node to its topmost ancestor, and the rig has parents first.
     for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
       document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
       RigNode node = nodeOf(*at);
@@ -370,7 +387,7 @@ class TreeReader {
     return places.at(index);
   }
 
-  // EXT_mesh_gpu_instancing: the places of the copies within the node.
+  // Reads the places of copies of a mesh within its node (EXT_mesh_gpu_instancing).
   std::vector<Affine> readCopies(const JsonValue& attributes) const {
     const JsonValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
     const JsonValue scale = attributes["SCALE"];
@@ -436,8 +453,8 @@ class TreeReader {
     if (camera.name.empty()) camera.name = "camera";
 
     camera.aspect = static_cast<float>(std::clamp(aspect, 0.0, kLargestAspect));
-    if (stage_.cameras.empty()) stage_.aspect = aspect;
-    stage_.cameras.push_back({camera, map, mover});
+    if (content_.cameras.empty()) content_.aspect = aspect;
+    content_.cameras.push_back({camera, map, mover});
   }
 
   void addLight(std::size_t index, const Affine& map, std::uint32_t mover) {
@@ -445,9 +462,11 @@ class TreeReader {
     const JsonValue lights = document_.root()["extensions"][kLights]["lights"];
     const JsonValue number = node["extensions"][kLights].need("light");
     const JsonValue source = lights[number.indexInto(lights).value_or(0)];
+
     Light light;
     light.name = source["name"].textOr("");
     if (light.name.empty()) light.name = node["name"].textOr("");
+
     const std::string type = source.need("type").textOr("");
     if (type == "spot") {
       light.kind = Light::Kind::spot;
@@ -464,18 +483,19 @@ class TreeReader {
     }
     const Vec3d color = tripleOr(source["color"].numbers(3), Vec3d(1.0));
     light.intensity = Rgb(color * (source["intensity"].numberOr(1) / kLumensPerWatt));
-    stage_.lights.push_back({light, map, mover});
+    content_.lights.push_back({light, map, mover});
   }
 
-  // A camera is chosen by its name.
+  // Makes the names of the cameras distinct, because a camera is chosen by its name.
   void nameCameras() {
     std::vector<std::string> names;
-    for (const auto& placed : stage_.cameras) names.push_back(placed.thing.name);
+    for (const auto& placed : content_.cameras) names.push_back(placed.thing.name);
     names = distinctNames(names);
-    for (const auto i : indices(names)) stage_.cameras[i].thing.name = names[i];
+    for (const auto i : indices(names)) content_.cameras[i].thing.name = names[i];
   }
 
-  // Equal angles, a sharp edge, are accepted: the extension forbids them, but writers produce them.
+  // Sets the cone of a spot light. Equal angles, which mean a sharp edge, are accepted: the
+  // extension forbids them, but some programs write them.
   static void setCone(const JsonValue& spot, Light& light) {
     constexpr double kRightAngle = std::numbers::pi / 2, kLeastOuter = std::numbers::pi / 360;
     const double outerAngle = spot["outerConeAngle"].numberOr(std::numbers::pi / 4);
@@ -492,7 +512,7 @@ class TreeReader {
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
   std::vector<bool> seen_;
-  GltfStage stage_;
+  GltfContent content_;
 };
 
 }  // namespace
@@ -505,6 +525,7 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
     names.push_back(name.empty() ? concat("animation ", i) : name);
   }
   names = distinctNames(names);
+
   std::vector<Animation> all;
   for (const auto i : indices(names)) {
     std::set<std::size_t> moved;
@@ -520,7 +541,7 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   return all;
 }
 
-GltfStage readGltfNodes(const GltfDocument& document, const Instant& instant) {
+GltfContent readGltfNodes(const GltfDocument& document, const Instant& instant) {
   return TreeReader(document, readTracks(document, instant), instant.movable).read();
 }
 

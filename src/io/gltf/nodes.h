@@ -20,8 +20,7 @@ inline constexpr int kGltfDepthLimit = 256;
 // lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
 
-// The nodes that move, a parent before its children. Meshes, cameras and lights refer to their node
-// by index; kNoNode stands for the scene.
+// A mesh of the file and the node that shows it.
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
   Affine toMover;  // identity for a skinned mesh: its joints place it
@@ -41,7 +40,10 @@ struct GltfPlaced {
   std::uint32_t mover = kNoNode;
 };
 
-struct GltfStage {
+// What the nodes of a file place in the scene.
+struct GltfContent {
+  // The nodes that move, a parent before its children. Meshes, cameras and lights refer to their
+  // node by index; kNoNode stands for the scene.
   Rig movers;
   std::vector<GltfPlacedMesh> meshes;  // meshes in the order of the tree
   std::vector<GltfPlaced<Camera>> cameras;
@@ -49,7 +51,7 @@ struct GltfStage {
   std::vector<GltfPlaced<Light>> lights;
 };
 
-// The names are distinct.
+// Returns the animations of the file, under distinct names.
 std::vector<Animation> listGltfAnimations(const GltfDocument& document);
 
 // Places the nodes of the default scene, else of the first one, else all nodes. Nodes that flatten
@@ -59,6 +61,6 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document);
 // `instant.movable` ("/nodes/i") always move. Throws badScene "file#/nodes/i" where the nodes are
 // no tree or deeper than kGltfDepthLimit, and "file#/animations/i/..." where the animation is
 // broken.
-GltfStage readGltfNodes(const GltfDocument& document, const Instant& instant);
+GltfContent readGltfNodes(const GltfDocument& document, const Instant& instant);
 
 }  // namespace whit

@@ -208,6 +208,8 @@ class ExrFile {
   std::vector<Value> read(const Box2i& box, const ExrChannels& channels,
                           const ImageLimits& limits) {
     const Box2i& data = header().dataWindow();
+
+    // The memory of the values, and that of OpenEXR.
     const MemoryHold held =
         holdImage(path_, widthOf(data), heightOf(data), channels.size() * sizeof(Value), limits);
     const auto width = static_cast<std::uint64_t>(widthOf(data));
@@ -222,6 +224,7 @@ class ExrFile {
     }
     const auto chunks = static_cast<std::uint64_t>(std::max(1, 2 * Imf::globalThreadCount()));
     const MemoryHold working(limits.budget, columns * lines * chunks, 4 * bytes, path_);
+
     std::vector<Value> values(width * static_cast<std::uint64_t>(heightOf(data)) * channels.size());
     const std::size_t stride = channels.size() * sizeof(Value);
     Imf::FrameBuffer frame;
@@ -229,6 +232,7 @@ class ExrFile {
       const auto& [name, type] = channels[c];
       frame.insert(name, Imf::Slice::Make(type, &values[c], data, stride, stride * width));
     }
+
     Imf::InputPart part(file_, 0);
     part.setFrameBuffer(frame);
     part.readPixels(data.min.y, data.max.y);
@@ -410,8 +414,8 @@ std::vector<half> inHalf(const Image& image) {
   return values;
 }
 
-// Where there is no room for the library's threads, it does without. A single thread is the
-// caller's: a forked child does not have the library's threads, and would wait for them.
+// Starts the library's threads; if there is no room for them, it does without. A single thread is
+// the caller's: a forked child does not have the library's threads, and would wait for them.
 void letCompress(int threads) {
   try {
     if (threads > 1 && threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
@@ -437,7 +441,7 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   }
   for (const auto& [name, text] : metadata)
     header.insert(kPrefix + name, Imf::StringAttribute(text));
-  Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709
+  Imf::addChromaticities(header, Imf::Chromaticities());  // those of Rec. 709
   addCamera(metadata, image, header);
   return header;
 }
@@ -505,6 +509,7 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
     const bool isChroma = hasChroma(file.header().channels());
     const std::size_t count = isChroma ? 4 : channels.size();
     file.checkSizes(count, limits);
+
     const Box2i& display = file.header().displayWindow();
     const Box2i visible = file.visible(), kept = wholeDisplay ? display : visible;
     ExrImage image;
@@ -513,6 +518,7 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
     // The sizes have been checked, so these differences fit.
     image.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
+
     image.raw =
         startImage(path, widthOf(kept), heightOf(kept), static_cast<int>(count), true, limits);
     if (isChroma) {
@@ -535,6 +541,8 @@ std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& l
     const ExrChannels channels = layerChannels(path, file.header().channels());
     if (channels.empty()) return layers;
     file.checkSizes(channels.size(), limits);
+
+    // The channels are read side by side and become layers one after the other.
     const auto words = file.read<std::uint32_t>(file.visible(), channels, limits);
     for (const auto c : indices(channels)) {
       ImageLayer& layer = layers.emplace_back();
@@ -577,6 +585,7 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
     throwUsage("cannot write '" + path +
                "': DWAA is lossy for channels as well (position.Y): zip, none and half are not");
   }
+
   AtomicFile file(path);
   letCompress(threads);
   try {

@@ -34,7 +34,7 @@ inline constexpr char kOtherPrimaries[] =
 
 // The first part of an OpenEXR file; values keep their bits.
 struct ExrImage {
-  int width = 0, height = 0;  // of the display window
+  int width = 0, height = 0;  // size of the display window
   Crop window;                // the part of the display window that `raw` holds
   RawImage raw;               // 1 channel: Y, 2: Y A, 3: R G B, 4: R G B A
 };

@@ -159,15 +159,6 @@ bool holdsRadiance(const std::string& path) {
   }
 }
 
-Rgb linearPixel(const RawImage& raw, std::size_t i) {
-  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
-  const auto value = [&](std::size_t channel) {
-    return raw.linear ? raw.values[first + channel] : linearOfCode(raw.codes[first + channel]);
-  };
-  if (raw.channels < 3) return Rgb(value(0));
-  return Rgb(value(0), value(1), value(2));
-}
-
 Image readImage(const std::string& path, const ImageLimits& limits) {
   ExrImage source;
   if (isExrFile(path)) {

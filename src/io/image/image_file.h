@@ -2,12 +2,14 @@
 // signature and is recognized by its name.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/display.h"
 #include "core/image.h"
 #include "core/warnings.h"
 #include "io/memory_budget.h"
@@ -54,7 +56,14 @@ bool holdsRadiance(const std::string& path);
 
 // Pixel number `i` as linear RGB: 8-bit codes are decoded from sRGB, gray is spread to three
 // channels, alpha is dropped.
-Rgb linearPixel(const RawImage& raw, std::size_t i);
+inline Rgb linearPixel(const RawImage& raw, std::size_t i) {
+  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
+  const std::size_t green = first + (raw.channels < 3 ? 0 : 1), blue = 2 * green - first;
+  if (raw.linear) return Rgb(raw.values[first], raw.values[green], raw.values[blue]);
+
+  const std::array<float, 256>& linear = linearOfCodes();
+  return Rgb(linear[raw.codes[first]], linear[raw.codes[green]], linear[raw.codes[blue]]);
+}
 
 // Reads an image as linear RGB, see linearPixel(). An EXR keeps its data window (the part inside
 // the display window), and floats keep their bits, NaN and infinities included.
@@ -76,8 +85,8 @@ struct ImageLayer {
 
 // Writes linear RGB with metadata as string attributes; the data window is image.window. An image
 // without pixels has no colors, only layers. `layers` keep all their bits, so dwaa with layers is
-// Error(usage). Up to `threads` threads compress the
-// pixels; the bytes do not depend on their number.
+// Error(usage). Up to `threads` threads compress the pixels; the bytes do not depend on their
+// number.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage = ExrStorage::zip, int threads = 1,
               const std::vector<ImageLayer>& layers = {});
@@ -96,14 +105,14 @@ std::string encodeJpeg(const DisplayImage& image, int quality = 93);
 // are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
 
-// 16-bit values, one or three for each pixel, rows from the top.
-struct DeepImage {
+// An image of 16-bit values, one or three for each pixel, in rows from the top.
+struct Image16 {
   int width = 0, height = 0, channels = 1;
   std::vector<std::uint16_t> values;
 };
 
-// `isSrgb`: three values are sRGB colors.
-void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+// Writes a 16-bit PNG. `isSrgb` says that the three values of a pixel are an sRGB color.
+void writePng(const std::string& path, const Image16& image, bool isSrgb,
               const ImageMetadata& metadata);
 
 // Decodes a PNG and returns its text chunks. Throws Error(io) if it cannot be read, badScene if it

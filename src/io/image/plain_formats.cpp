@@ -197,7 +197,7 @@ class PlainReader {
                        : columns * rows * pixelBytes + (rows - 1) * padding);
     image_.codes.resize(columns * rows * channels);
 
-    std::uint32_t left = 0;  // of the packet
+    std::uint32_t left = 0;  // pixels left in the packet
     bool isRun = false;
     Codes codes{};
 
@@ -418,7 +418,7 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   for (std::size_t y = 0; y < height; ++y) {
     readRow(bytes, row);
     for (const Rgbe& pixel : row) {
-      constexpr int kBias = 128 + 8;  // of the exponent, and of mantissas below 256
+      constexpr int kBias = 128 + 8;  // the exponent has a bias, and mantissas are below 256
       const float scale = pixel[3] == 0 ? 0 : std::ldexp(1.0f, pixel[3] - kBias);
       for (const auto c : indices(3)) {
         image.values.push_back(static_cast<float>(pixel[c]) * scale /

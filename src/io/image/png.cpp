@@ -132,7 +132,7 @@ class PngReader {
 
 RawImage decode(const std::string& path, FileBytes file, const ImageLimits& limits,
                 ImageMetadata* texts) {
-  constexpr std::uint64_t kMostFromOneByte = 1032;  // of deflate
+  constexpr std::uint64_t kMostFromOneByte = 1032;  // highest ratio of deflate
   PngReader reader(path, file);
   reader.readHeader();
   checkImageSize(path, reader.width(), reader.height(), 1, limits);
@@ -259,7 +259,7 @@ void writePng(const std::string& path, const DisplayImage& image, const ImageMet
   writeTextFile(path, encodePng(image, metadata));
 }
 
-void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+void writePng(const std::string& path, const Image16& image, bool isSrgb,
               const ImageMetadata& metadata) {
   const int colorType = image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
   const std::size_t stride = sizeof(std::uint16_t) * static_cast<std::size_t>(image.channels) *

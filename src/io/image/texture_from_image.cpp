@@ -1,6 +1,7 @@
 #include "io/image/texture_from_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,10 @@
 namespace whit {
 
 namespace {
+
+std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
+  return {valueAt(raw, i, 0), valueAt(raw, i, 1), valueAt(raw, i, 2), valueAt(raw, i, 3)};
+}
 
 // Counts the pixels of a linear image with a color above the limit.
 std::uint64_t countAbove(const RawImage& raw, float limit) {
@@ -24,8 +29,8 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
 // Encodes an image of 8-bit codes, of which there are so few that a table holds all results.
 void fillColors(const RawImage& raw, std::vector<std::uint32_t>& texels) {
   std::array<std::uint32_t, 256> encoded{};
-  for (int code = 0; code < 256; ++code) {
-    encoded[static_cast<std::size_t>(code)] = encodeColorTexel(Rgb(linearOfCode(code)));
+  for (const auto code : indices(encoded)) {
+    encoded[code] = encodeColorTexel(Rgb(linearOfCodes()[code]));
   }
 
   const std::size_t green = raw.channels < 3 ? 0 : 1, blue = 2 * green;
@@ -37,7 +42,7 @@ void fillColors(const RawImage& raw, std::vector<std::uint32_t>& texels) {
   }
 }
 
-// Data textures keep the codes of an image of 8-bit codes; see valuesAt() for missing channels.
+// Data textures keep the codes of an image of 8-bit codes; see valueAt() for missing channels.
 void fillData(const RawImage& raw, std::vector<std::uint32_t>& texels) {
   const bool hasAlpha = raw.channels % 2 == 0;
   const std::size_t green = raw.channels < 3 ? 0 : 1, blue = 2 * green;
@@ -98,17 +103,6 @@ Vec3d directionOf(int column, int row, const EnvironmentImage& image) {
 
 }  // namespace
 
-std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
-  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
-  const auto value = [&](std::size_t c) {
-    return raw.linear ? raw.values[first + c] : static_cast<float>(raw.codes[first + c]) / 255.0f;
-  };
-  if (raw.channels < 3) {
-    return {value(0), value(0), value(0), raw.channels == 2 ? value(1) : 1.0f};
-  }
-  return {value(0), value(1), value(2), raw.channels == 4 ? value(3) : 1.0f};
-}
-
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
   Texture texture = emptyTexture(name, format, raw.width, raw.height);
   if (format == TexelFormat::color && !raw.linear) {
@@ -134,7 +128,7 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
 Texture makeAlphaTexture(const std::string& name, const RawImage& raw) {
   Texture texture = emptyTexture(name, TexelFormat::data, raw.width, raw.height);
   for (const auto i : indices(texture.texels)) {
-    const float alpha = valuesAt(raw, i)[3];
+    const float alpha = valueAt(raw, i, 3);
     texture.texels[i] = encodeDataTexel(alpha, alpha, alpha, 1);
   }
   return texture;
@@ -189,7 +183,7 @@ bool hasTranslucentAlpha(const RawImage& raw) {
   if (raw.channels != 2 && raw.channels != 4) return false;
 
   for (const auto i : indices(raw.pixels())) {
-    if (valuesAt(raw, i)[3] < 1.0f) return true;
+    if (valueAt(raw, i, 3) < 1.0f) return true;
   }
   return false;
 }
@@ -211,7 +205,7 @@ Texture normalsFromHeights(const std::string& name, const RawImage& raw, float b
   const auto height = [&](int x, int y) {
     const std::size_t row = static_cast<std::size_t>(wrapTexel(y, raw.height, wrapV));
     const std::size_t column = static_cast<std::size_t>(wrapTexel(x, raw.width, wrapU));
-    return valuesAt(raw, row * static_cast<std::size_t>(raw.width) + column)[0];
+    return valueAt(raw, row * static_cast<std::size_t>(raw.width) + column, 0);
   };
 
   // Slopes per tile width, so that the relief does not depend on the resolution.

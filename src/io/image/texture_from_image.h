@@ -1,7 +1,7 @@
 // Converts decoded images to what shading reads: textures, environments, normal maps.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <string>
 
 #include "io/image/image_file.h"
@@ -34,9 +34,19 @@ bool hasTranslucentAlpha(const RawImage& raw);
 // Makes a data texture of the alpha channel alone.
 Texture makeAlphaTexture(const std::string& name, const RawImage& raw);
 
-// Returns the stored channels of pixel `i` as r, g, b, a; codes become fractions of 255. A gray
-// image has one value for r, g and b; a missing alpha is 1.
-std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i);
+// Returns a stored channel of pixel `i`: r, g, b and alpha are 0 to 3. Codes become fractions of
+// 255. A gray image has one value for r, g and b; a missing alpha is 1.
+inline float valueAt(const RawImage& raw, std::size_t i, std::size_t channel) {
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  std::size_t place = i * channels;
+  if (channel == 3) {
+    if (channels % 2 != 0) return 1;
+    place += channels - 1;
+  } else if (channels >= 3) {
+    place += channel;
+  }
+  return raw.linear ? raw.values[place] : static_cast<float>(raw.codes[place]) / 255.0f;
+}
 
 // Returns true if a bump map holds heights: it has one or two channels, or is gray. Normal maps are
 // never gray: their blue is near 1 where red and green are near 1/2.

@@ -64,12 +64,14 @@ class MtlParser {
                                             "norm",   "map_pr", "map_pm", "map_pc", "map_pcr"};
     static const std::map<std::string, std::string> synonyms{
         {"kt", "tf"}, {"map_bump", "bump"}, {"map_norm", "norm"}, {"norm_map", "norm"}};
+
     std::string key = keyword_;
     for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (const auto synonym = synonyms.find(key); synonym != synonyms.end()) key = synonym->second;
 
     if (key == "newmtl") newMaterial();
     if (key == "newmtl" || materials_.empty()) return;
+
     MtlMaterial& material = materials_.back();
     if (colors.contains(key)) {
       material.numbers[key] = readColor();
@@ -93,7 +95,7 @@ class MtlParser {
     return static_cast<float>(value);
   }
 
-  // g and b may be left out; they are then equal to r.
+  // Reads r, g and b. The last two may be left out; they are then equal to r.
   Rgb readColor() {
     Rgb color;
     for (int i = 0; i < 3; ++i) {
@@ -111,7 +113,7 @@ class MtlParser {
     return *value;
   }
 
-  // Options, then the name of the file: the rest of the line, which may contain blanks.
+  // Reads options, and then the name of the file: the rest of the line, which may contain blanks.
   MtlMaterial::Map readMap() {
     MtlMaterial::Map map;
     map.where = lines_.place();
@@ -123,7 +125,7 @@ class MtlParser {
     return map;
   }
 
-  // Reads up to three numbers; those that the line does not have stay.
+  // Reads up to three numbers. Components for which the line has no number keep their values.
   void readNumbers(Vec3f& to, int most = 3) {
     double value = 0;
     for (int i = 0; i < most && lines_.number(value); ++i) to[i] = static_cast<float>(value);
@@ -215,7 +217,8 @@ class Interpreter {
     if (source_.has("d")) return unit("d", 1);
     const float transparency = unit("tr", source_.isFromMeshLab ? 1 : 0);
     if (source_.isFromMeshLab) return transparency;
-    // Nobody means a material that is not there.
+
+    // Nobody wants an invisible material.
     const bool isGone = numberOr("tr", 0) == 1 && !isGlass();
     if (isGone) {
       warnings_.add("material that Tr 1 makes invisible taken as opaque", source_.where);
@@ -228,6 +231,7 @@ class Interpreter {
     const auto found = source_.maps.find(keyword);
     if (found == source_.maps.end()) return texture;
     const MtlMaterial::Map& map = found->second;
+
     GltfImageSource image;
     image.where = map.where;
     try {
@@ -236,6 +240,7 @@ class Interpreter {
       warnings_.add("texture left out", error.what());
       return texture;
     }
+
     std::error_code error;
     if (!std::filesystem::exists(image.path, error)) {
       warnings_.add("texture left out",
@@ -247,6 +252,7 @@ class Interpreter {
     texture.image = known - images_.begin();
     if (known == images_.end()) images_.push_back(std::move(image));
     texture.wrapU = texture.wrapV = map.clamp ? Wrap::clamp : Wrap::repeat;
+
     // u' = offset + scale u and v' = offset + scale v, with v pointing up.
     texture.uv.uu = double{map.scale.x};
     texture.uv.u0 = double{map.offset.x};
@@ -317,6 +323,7 @@ class Interpreter {
     if (illum_ == 0 || illum_ == 1) m.specularColor = Rgb(0.0f);
     m.f90 = maxComponent(m.specularColor) > 0 ? 1.0f : 0.0f;
     m.grazingFades = true;
+
     // A roughness that is given makes a rough metal of a mirror.
     const bool isRough = source_.has("pr") && m.roughness > kBlurredRoughness;
     if (!isMirror || isRough) return;

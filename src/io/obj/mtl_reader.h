@@ -9,7 +9,7 @@
 
 namespace whit {
 
-// Limit on the materials of a file: a line of a few letters makes one, which takes kilobytes.
+// Limit on the materials of a file. A line of a few letters makes a material that takes kilobytes.
 inline constexpr std::size_t kMaterialLimit = 65536;
 
 // The statements of a material. Libraries hold many materials that no model uses.
@@ -37,7 +37,7 @@ struct MtlMaterial {
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings);
 
-// A material in terms of glTF, and what glTF does not have.
+// A material in terms of glTF, and the reflectances that glTF does not have.
 //
 // The statements mean: Kd is the diffuse albedo. Ks is the strength of the highlight: F0 is
 // 0.08 Ks, as Blender reads it. Ns is the exponent of Blinn's lobe (alpha = sqrt(2 / (Ns + 2)),
@@ -57,8 +57,9 @@ struct ObjMaterial {
   float dissolve = 1;
 };
 
-// Numbers the images of its maps in `images`, to which it adds those that are new. Their names are
-// relative to `folder`. A map that cannot be found is a warning.
+// Returns the material that the statements mean. Its maps refer to images by their numbers in
+// `images`, to which new ones are added. Their names are relative to `folder`. A map that cannot be
+// found causes a warning.
 ObjMaterial interpretMtl(const MtlMaterial& source, const std::filesystem::path& folder,
                          const PathRules& rules, std::vector<GltfImageSource>& images,
                          Warnings& warnings);

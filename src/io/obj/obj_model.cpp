@@ -36,7 +36,7 @@ constexpr std::int32_t kOutOfRange = std::numeric_limits<std::int32_t>::max();
 
 // Corners and vertices are counted with 32 bits, and each takes at least two letters.
 constexpr std::uint64_t kLargestText = 1ull << 32;
-// Upper bound of the memory for "v 0 0 0" and its kin, without faces.
+// Upper bound on the memory for statements such as "v 0 0 0", without faces.
 constexpr std::uint64_t kBytesPerLetter = 5;
 
 // A name in a file, and the place that names it.
@@ -50,12 +50,13 @@ struct ObjCorner {
 
 struct ObjVertex {
   std::int32_t uv, normal;
-  std::uint32_t older;  // another one at the same position
+  std::uint32_t older;  // an older vertex at the same position, or kNoVertex
 };
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu, kNoMaterial = 0xffffffffu;
 
-// Normals from here on belong to a smoothing group, others are those of the file, which has fewer.
+// Numbers of normals from here on are those of smoothing groups. Smaller ones are those of the
+// file, which never has as many.
 constexpr std::int32_t kFirstGroupNormal = 1 << 30;
 
 bool isWithin(std::int32_t index, std::size_t count) {
@@ -81,11 +82,13 @@ class ObjReader {
       LineReader line(text_, file_, start, number);
       noteName(line.word(), line);
     }
+
     const std::size_t vertex = text_.starts_with("v ") ? 0 : text_.find("\nv ") + 1;
     LineReader first(text_, file_, vertex);
     first.word();
     std::array<double, 6> numbers{};
     isColored = std::ranges::all_of(numbers, [&](double& x) { return first.number(x); });
+
     if (materials.size() > kMaterialLimit) {
       throwLimit(concat(file_, " uses more than ", kMaterialLimit, " materials"));
     }
@@ -101,16 +104,21 @@ class ObjReader {
     facesWithoutUvs.assign(count + 1, 0);
     findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
+
     if (mesh_.triangles.empty()) {
       warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
       return {};
     }
+
     finishNormals();
     finishColors();
     if (!hasUvs_) mesh_.uvs.clear();
     if (!hasNormals_) mesh_.normals.clear();
     // A file that says nothing about its normals is smoothed; "s off" says that faces are flat.
     if (normals_.empty() && !statesSmoothing_) smoothNormals(mesh_, file_, budget_);
+
+    // Faces without a material have the index behind the last one. A mesh of one material states it
+    // once.
     for (std::uint32_t& material : mesh_.materials) material = std::min(material, count);
     if (std::ranges::count(mesh_.materials, mesh_.materials[0]) == std::ssize(mesh_.materials)) {
       mesh_.materials.resize(1);
@@ -127,9 +135,10 @@ class ObjReader {
   Vec3d origin;            // subtracted from all vertices, see originOf()
 
  private:
-  // Reading faces needs vertices that are rounded already, so that the vertices which faces use are
-  // found first: up to where their box is as large as it is far away, because a box with that
-  // property stays near however it grows.
+  // Finds the origin that is subtracted from all vertices. Faces are read with vertices that are
+  // rounded already, so the box of the vertices that faces use has to be known before. The search
+  // ends once that box is as large as it is far away, because such a box stays near however it
+  // grows.
   void findMiddle() {
     constexpr std::size_t kLettersOfVertex = 6;  // at least: "v 0 0"
     std::vector<Vec3d> all;
@@ -199,7 +208,7 @@ class ObjReader {
     return count;
   }
 
-  // x, y, which z, a weight and a color may follow.
+  // Reads a vertex: x and y, which z, a weight and a color may follow.
   void position() {
     std::array<double, 7> v{};
     const std::size_t count = readNumbers(v.data(), v.size());
@@ -225,7 +234,7 @@ class ObjReader {
     line_ = lines_.line();
     corners_.clear();
     while (lines_.hasMore()) {
-      // The corner itself, a vertex and a triangle.
+      // Each corner takes memory itself, and for up to one vertex and one triangle.
       budget_.charge(1,
                      sizeof(ObjCorner) + sizeof(ObjVertex) + 2 * sizeof(Vec3f) + sizeof(Vec2f) +
                          5 * sizeof(std::uint32_t),
@@ -278,12 +287,14 @@ class ObjReader {
     const bool lacksNormals =
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
     if (lacksNormals && smoothing_ != 0) addToGroup();
+
     const bool isFlat = lacksNormals && smoothing_ == 0;
     const bool lacksUvs =
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.uv == kNoIndex; });
     if (lacksUvs) ++facesWithoutUvs[std::min<std::size_t>(material_, facesWithoutUvs.size() - 1)];
     mesh_.hasFlatFaces |= isFlat;
     hasNormals_ |= !isFlat;
+
     points_.clear();
     vertices_.clear();
     triangles_.clear();
@@ -292,6 +303,7 @@ class ObjReader {
       points_.emplace_back(positions_[corner.position]);
       vertices_.push_back(vertex(corner));
     }
+
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline");
     for (const auto& t : triangles_) {
       mesh_.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
@@ -348,11 +360,13 @@ class ObjReader {
     const std::size_t position = corner.position;
     if (newest_.size() <= position) newest_.resize(positions_.size(), kNoVertex);
     std::uint32_t& newest = newest_[position];
+
     // The search is short, so that files with many vertices at one position stay fast.
     int left = 64;
     for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = known_[v].older, --left) {
       if (known_[v].uv == corner.uv && known_[v].normal == corner.normal) return v;
     }
+
     const auto number = size32(known_);
     known_.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
     mesh_.positions.push_back(positions_[position]);
@@ -360,6 +374,7 @@ class ObjReader {
     const bool hasNormal = corner.normal != kNoIndex && corner.normal < kFirstGroupNormal;
     mesh_.uvs.push_back(hasUv ? uvs_[corner.uv] : Vec2f());
     mesh_.normals.push_back(hasNormal ? normals_[corner.normal] : Vec3f());
+
     if (position < colors_.size()) {
       mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
       mesh_.colors.back() = colors_[position];
@@ -410,15 +425,17 @@ ObjMaterial plainMaterial(const std::string& name, bool isColored) {
 
 class ObjModel : public MeshModel {
  public:
-  // Has one material for each that faces use, and a gray one last for faces without any. A library
-  // or a material that is missing is a warning; such materials are gray.
+  // Makes one material for each that faces use, and a gray one last for faces without any. A
+  // library or a material that is missing causes a warning; such materials are gray.
   explicit ObjModel(const ModelSource& source) : MeshModel(source), file_(source.path.string()) {
     text_ = readTextFile(source.path, source.budget.left());
     if (text_.size() > kLargestText) throwLimit(file_ + " has more than 2^32 bytes");
     source.budget.charge(text_.size(), 1 + kBytesPerLetter, file_);
     reader_.emplace(text_, file_, source.budget, source.warnings).findNames();
+
     Library library;
     for (const ObjName& line : reader_->libraries) readLibraries(line, library);
+
     for (const auto& [name, where] : reader_->materials) {
       const auto known = library.find(name);
       if (known == library.end()) {
@@ -429,6 +446,7 @@ class ObjModel : public MeshModel {
                              : interpretMtl(known->second, source.path.parent_path(), source.rules,
                                             images_, source.warnings));
     }
+
     sources_.push_back(plainMaterial(kNoMaterialName, reader_->isColored));
     for (const ObjMaterial& one : sources_) materials_.push_back(shadedAs(one, {}));
     maps_.emplace(images_, source.warnings);
@@ -472,11 +490,13 @@ class ObjModel : public MeshModel {
   // own, because the file's vertices are shared by materials.
   void mapCoordinates() {
     if (mesh_.uvs.empty()) return;
+
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
     for (const auto i : indices(mesh_.triangles)) {
       const std::uint32_t material = mesh_.material(i);
       const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
       if (coordinates == GltfMaterial::Coordinates()) continue;
+
       for (std::uint32_t& corner : mesh_.triangles[i]) {
         const auto next = size32(mesh_.positions);
         const auto [copy, isNew] = copies.emplace(std::pair(material, corner), next);
@@ -484,6 +504,7 @@ class ObjModel : public MeshModel {
         corner = copy->second;
       }
     }
+
     // All vertices have second coordinates, or none.
     if (!mesh_.secondUvs.empty()) mesh_.secondUvs.resize(mesh_.positions.size());
   }
@@ -503,9 +524,10 @@ class ObjModel : public MeshModel {
 
   using Library = std::map<std::string, MtlMaterial>;
 
-  // The line is one name with blanks if such a file exists, otherwise several names.
+  // Reads the libraries of a line. It is one name with blanks if such a file exists, otherwise
+  // several names.
   void readLibraries(const ObjName& line, Library& library) const {
-    // Empty for a library that may not be read.
+    // Returns an empty path for a library that may not be read.
     const auto resolve = [&](const std::string& name) {
       try {
         return source_.rules.find(name, source_.path.parent_path(), line.where, source_.warnings);
@@ -513,12 +535,14 @@ class ObjModel : public MeshModel {
         return std::filesystem::path();
       }
     };
+
     std::error_code error;
     std::vector<std::string> names{line.name};
     if (!std::filesystem::exists(resolve(line.name), error)) {
       std::istringstream words(line.name);
       names.assign(std::istream_iterator<std::string>(words), {});
     }
+
     for (const std::string& name : names) {
       const auto file = resolve(name);
       if (std::filesystem::is_regular_file(file, error)) {

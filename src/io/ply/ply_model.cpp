@@ -88,7 +88,7 @@ constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
     {"blue", "diffuse_blue", "b"},
     {"alpha", "diffuse_alpha", "a"}};
 
-// kComponents where the property is none of them.
+// Returns the component that a property holds, or kComponents if it holds none.
 Component componentOf(const PlyProperty& property) {
   int component = property.countType ? int{kComponents} : 0;
   while (component < kComponents && !contains(kComponentNames[component], property.name)) {
@@ -102,7 +102,7 @@ struct PlyPicture {
   std::string name, where;
 };
 
-// Returns a component as it counts: whole numbers of colors are sRGB codes, others are linear.
+// Returns the value of a component. Colors of integer types are sRGB codes, which become linear.
 float valueOf(const PlyProperty& property, Component component, double value) {
   const double white = component >= kR && component <= kAlpha ? property.type->white : 0;
   if (white > 0) value /= white;
@@ -117,8 +117,8 @@ struct PlyFace {
   double picture = 0;
 };
 
-// Nothing is allocated that the file cannot fill. Elements other than vertex, face and tristrips
-// are skipped; faces with vertices out of range are counted in the warnings.
+// Reads a file. It allocates nothing that the file cannot fill. Elements other than vertex, face
+// and tristrips are skipped; faces with vertices out of range are counted in the warnings.
 class PlyReader {
  public:
   PlyReader(const std::string& text, const std::string& file, MemoryBudget& budget,
@@ -159,7 +159,7 @@ class PlyReader {
   Vec3d origin;  // subtracted from all vertices, see originOf()
 
  private:
-  // "file:line", or "file: byte N" in binary data.
+  // Returns "file:line", or "file: byte N" in binary data.
   std::string place() const {
     if (ascii_) return lines_.place();
     return concat(file_, ": byte ", at_);
@@ -351,7 +351,7 @@ class PlyReader {
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
   }
 
-  // Names what is not read of each element, which is often nothing that is seen.
+  // Notes a property that is not read. Often such a property would not be visible anyway.
   void nameUnread(const PlyElement& element, const PlyProperty& property) {
     warnings_.note("property of PLY that is not read: " + excerpt(property.name),
                    file_ + ": element " + excerpt(element.name));
@@ -368,6 +368,7 @@ class PlyReader {
       throwBadScene(element.where,
                     "expected the vertices before the element \"" + element.name + "\"");
     }
+
     const bool areFaces = element.name == "face";
     const PlyProperty* const coordinates = areFaces ? element.find("texcoord") : nullptr;
     const PlyProperty* const picture = areFaces ? element.find("texnumber") : nullptr;
@@ -387,6 +388,7 @@ class PlyReader {
         const Component component = componentOf(property);
         face.values[component] = valueOf(property, component, value);
       });
+
       if (areFaces) {
         addFace(face);
       } else {
@@ -406,6 +408,7 @@ class PlyReader {
       has[component] = true;
       if (!isKnown && (component < kR || component > kB)) nameUnread(element, property);
     }
+
     const bool isColored = has[kR] && has[kG] && has[kB];
     hasFaceColors_ = isColored && areFaces && mesh_.colors.empty();
     if (hasFaceColors_) mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
@@ -440,7 +443,7 @@ class PlyReader {
     }
   }
 
-  // The number of the face's picture, the first where there is no such picture.
+  // Returns the number of the face's picture, or the first one if there is no such picture.
   std::uint32_t pictureOf(const PlyFace& face) {
     const bool exists = face.picture >= 0 && face.picture < static_cast<double>(pictures.size());
     if (!exists && face.picture != 0) {
@@ -449,7 +452,7 @@ class PlyReader {
     return exists ? static_cast<std::uint32_t>(face.picture) : 0;
   }
 
-  // Returns false if there is no such vertex.
+  // Adds a vertex to numbers_. Returns false if there is no such vertex.
   bool addCorner(double corner) {
     const bool exists = corner >= 0 && corner < static_cast<double>(vertices_);
     if (!exists || corner != std::floor(corner)) return false;
@@ -457,7 +460,7 @@ class PlyReader {
     return true;
   }
 
-  // -1 ends a strip.
+  // Adds the triangles of one or more strips; the index -1 ends a strip.
   void addStrips(const std::vector<double>& corners) {
     numbers_.clear();
     for (const double corner : corners) {
@@ -489,6 +492,7 @@ class PlyReader {
       points_.emplace_back(mesh_.positions[numbers_.back()]);
     }
     takeOwnVertices(face);
+
     triangles_.clear();
     if (!triangulate(points_, triangles_)) {
       warnings_.add("polygon without a simple outline", place());
@@ -518,8 +522,8 @@ class PlyReader {
 
 class PlyModel : public MeshModel {
  public:
-  // Has one material for each picture, which is white, or a single one that is gray, or white where
-  // there are colors.
+  // Makes a white material for each picture, or else a single one, which is white if there are
+  // colors and otherwise gray.
   explicit PlyModel(const ModelSource& source) : MeshModel(source) {
     const std::string text = readTextFile(source.path, source.budget.left());
     const std::string file = source.path.string();
@@ -566,7 +570,7 @@ class PlyModel : public MeshModel {
   }
 
  private:
-  // Without a path where there is no such file.
+  // Returns the texture of a picture. It has no path if there is no such file.
   TextureSource sourceOf(const PlyPicture& picture) const {
     TextureSource found;
     found.where = picture.where;

@@ -65,8 +65,8 @@ Affine readOne(const JsonValue& value) {
   return result;
 }
 
-// {"translate", "rotate", "scale"} (scale first, translate last), {"matrix": 12 numbers, row-major
-// 3x4}, or a list of those, the first applied first. Fails for maps that flatten space.
+// Reads {"translate", "rotate", "scale"} (scale first, translate last), {"matrix": 12 numbers,
+// row-major 3x4}, or a list of those, the first applied first. Fails for maps that flatten space.
 Affine readTransform(const JsonValue& value) {
   Affine result;
   if (value.isArray()) {
@@ -79,21 +79,27 @@ Affine readTransform(const JsonValue& value) {
   return result;
 }
 
-// Where the copies of an item stand in its parent: "transform", then moved by multiples of the step
-// of "repeat". At least one.
+// Returns where the copies of an item stand in its parent, one or more: "transform", and then moved
+// by multiples of the step of "repeat".
 std::vector<Affine> readPlacements(JsonObject& item) {
   const JsonValue transform = item.find("transform"), value = item.find("repeat");
   const Affine once = transform ? readTransform(transform) : Affine();
   if (!value) return {once};
+
   JsonObject repeat(value);
   const JsonValue countValue = repeat.need("count");
   const auto counts = countValue.elements(3, "three numbers of copies [nx, ny, nz]");
   const Vec3d step = repeat.need("step").vector();
   repeat.finish();
+
   int n[3];
   double total = 1;
-  for (const auto i : indices(3)) total *= n[i] = counts[i].integer(1, kRepeatLimit);
+  for (const auto i : indices(3)) {
+    n[i] = counts[i].integer(1, kRepeatLimit);
+    total *= n[i];
+  }
   if (total > kRepeatLimit) countValue.fail(concat("at most ", kRepeatLimit, " copies"));
+
   std::vector<Affine> result;
   result.reserve(static_cast<std::size_t>(total));
   for (int z = 0; z < n[2]; ++z) {
@@ -106,7 +112,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
-// Gives this name to all that has none in the content: it is one item, or one item a body.
+// Gives this name to everything in the content that has none.
 void nameItem(Body& content, const std::string& pointer) {
   const ItemName name = std::make_shared<const std::string>(pointer);
   for (Placement& placed : content.placements) {
@@ -114,7 +120,7 @@ void nameItem(Body& content, const std::string& pointer) {
   }
 }
 
-// The index in `names` of the key of `slot`; an error suggests the nearest.
+// Returns the index of `key` in `names`. An error at `slot` suggests the nearest name.
 std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
   const auto found = std::ranges::find(names, key);
@@ -122,7 +128,7 @@ std::size_t slotOf(const JsonValue& slot, const std::string& key,
   return found - names.begin();
 }
 
-// The map that turns an axis up.
+// Returns the rotation that turns this axis upwards.
 Affine uprightFrom(char up) {
   if (up == 'z') return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
   if (up == 'x') return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {}};
@@ -138,18 +144,21 @@ class ItemReader {
     const auto objects = file.find("objects").members();
     for (const auto& [name, value] : objects) objects_.emplace(name, NamedObject{value});
     for (const auto& [name, value] : objects) readObject(objects_.at(name), name);
+
     const std::vector<JsonValue> items = file.find("scene").elements();
     for (const auto i : indices(items)) {
       reportProgress(context_.progress, "reading scene",
                      static_cast<double>(i) / static_cast<double>(items.size()));
       readItem(items[i], layout_.body(0));
     }
-    if (layout_.moveTo(context_.scene, false) != Vec3d()) {
+
+    if (layout_.moveTo(context_.scene) != Vec3d()) {
       context_.warnings.note(
           "scene far from the origin: single precision rounds its coordinates (its items should be "
           "moved to the origin)",
           context_.scene.name);
     }
+
     addViews(file);
   }
 
@@ -158,18 +167,21 @@ class ItemReader {
     Body content = contentOf(model, path, file);
     nameItem(content, path.stem().string());
     layout_.append(content, {upright(file, path, content)}, layout_.body(0));
-    const Vec3d origin = layout_.moveTo(context_.scene, true);
+
+    const Vec3d origin = layout_.moveToOrigin(context_.scene);
     if (origin != Vec3d()) {
       context_.warnings.note(
           formatted("model far from the origin: origin moved by %.17g,%.17g,%.17g", origin.x,
                     origin.y, origin.z),
           context_.scene.name);
     }
+
     model.addView(context_.scene, Affine());
   }
 
  private:
-  // A model of the list "scene" whose cameras and lights may be taken, and where it stands.
+  // A model of the list "scene" whose cameras and lights the scene may take over, and where it
+  // stands.
   struct ViewedModel {
     Model* model;
     Affine toWorld;
@@ -202,7 +214,8 @@ class ItemReader {
         where, model.viewSize());
   }
 
-  // Files of OBJ, PLY and OFF do not say which axis is up. In STL files it is z by custom.
+  // Returns the rotation that makes the model stand. Files of OBJ, PLY and OFF do not say which
+  // axis is up. In STL files it is z by custom.
   Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content) {
     const std::string format = extensionOf(path);
     const bool says =
@@ -213,6 +226,7 @@ class ItemReader {
       if (axis != "x" && axis != "y" && axis != "z") up.fail("\"x\", \"y\" or \"z\"");
       return uprightFrom(axis[0]);
     }
+
     if (format == ".stl") return uprightFrom('z');
     if (says || !seemsZUp(content)) return {};
     context_.warnings.add("model in which z seems to be up was turned (--up y leaves it as it is)",
@@ -329,11 +343,12 @@ class ItemReader {
     return context_.model(file, path.where());
   }
 
-  // A body of its own, so that one that is placed several times is kept once.
+  // Makes each mesh a body of its own, so that a mesh which is placed several times is stored once.
   Body readMesh(JsonObject& item, const JsonValue& name) {
     const auto found = findNamed(context_.parts->meshes, name, "a mesh");
     const JsonValue named = item.find("material");
     const std::uint32_t material = named ? materials_.find(named) : materials_.defaultMaterial();
+
     const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
     if (isNew) {
       Mesh mesh = meshOf(found->second, name.where());
@@ -343,6 +358,7 @@ class ItemReader {
       entry->second = layout_.add(found->first);
       layout_.body(entry->second).addMesh(std::move(mesh));
     }
+
     Body content;
     content.placements.push_back({.body = entry->second});
     return content;
@@ -351,16 +367,19 @@ class ItemReader {
   Body contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
     const std::vector<std::uint32_t> materials = modelMaterials(model, item);
     reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+
     model.variant.reset();
     if (const JsonValue name = item.find("variant")) {
       const std::vector<std::string> names = model.variants();
       if (names.empty()) name.fail("no variant, because the model has none");
       model.variant = std::ranges::find(names, name.word(names)) - names.begin();
     }
+
     return model.content(layout_, materials);
   }
 
-  // Overrides first, then images are asked for: they are decoded while the geometry is read.
+  // Applies the overrides of materials, and then requests their images, which are decoded while the
+  // geometry is read. Returns the scene's index of each material.
   std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item) {
     std::vector<Material> materials = model.materials();
     std::vector<GivenMembers> given(materials.size());

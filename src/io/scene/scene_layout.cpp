@@ -50,15 +50,16 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
   }
 }
 
-// A body that is met again may be met deeper than before.
+// A body that is reached again may lie deeper than before.
 int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order) {
   Body& body = bodies_[index];
   if (depth + std::max(body.height, 1) > kNestingLimit) {
     throwLimit(concat("objects are nested deeper than ", kNestingLimit));
   }
   if (body.height > 0) return body.height;
+
   int height = 1;
-  Standing& within = body.within;
+  OrderNumbers& within = body.within;
   for (Placement& placed : body.placements) {
     if (placed.isMesh()) {
       if (!placed.goesOn) ++within.item;
@@ -69,11 +70,13 @@ int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32
       within += bodies_[placed.body].within;
     }
   }
+
   order.push_back(index);
-  return body.height = height;
+  body.height = height;
+  return height;
 }
 
-// `body` as it is at 0 s, when those that it holds have their boxes.
+// Returns the bounds of the body at 0 s. The bodies that it holds must have their boxes.
 BoxOf<Vec3d> SceneLayout::boundsOf(const Body& body) const {
   BoxOf<Vec3d> box;
   for (const Placement& placed : body.placements) {
@@ -83,11 +86,12 @@ BoxOf<Vec3d> SceneLayout::boundsOf(const Body& body) const {
   return box;
 }
 
-Vec3d SceneLayout::moveTo(SceneDescription& scene, bool toOrigin) {
+Vec3d SceneLayout::measureScene(SceneDescription& scene) {
   std::vector<std::uint32_t> order;
   measure(0, 0, order);
   for (const std::uint32_t index : order) bodies_[index].box = boundsOf(bodies_[index]);
-  const Vec3d origin = originOf(bodies_[0].box);
+
+  // A body is placed as often as all bodies that hold it together.
   double instances = 0;  // may be more than an integer can hold
   bodies_[0].places = 1;
   for (auto index = order.rbegin(); index != order.rend(); ++index) {
@@ -97,19 +101,32 @@ Vec3d SceneLayout::moveTo(SceneDescription& scene, bool toOrigin) {
       if (!placed.isMesh()) bodies_[placed.body].places += body.places;
     }
   }
+
   constexpr double kMany = 1e18;
   budget_.charge(static_cast<std::uint64_t>(std::min(instances, kMany)), sizeof(Instance),
                  "instances");
+
   scene.items = bodies_[0].within.item;
   scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
 
-  const bool isMoved = toOrigin && origin != Vec3d();
-  if (isMoved) scene.origin = origin;
-  place({.body = 0}, isMoved ? Affine::translation(-origin) : Affine(), kNoNode, {}, scene);
+  return originOf(bodies_[0].box);
+}
+
+Vec3d SceneLayout::moveTo(SceneDescription& scene) {
+  const Vec3d origin = measureScene(scene);
+  place({.body = 0}, Affine(), kNoNode, {}, scene);
   return origin;
 }
 
-// The last user of a mesh gets it, others a copy.
+Vec3d SceneLayout::moveToOrigin(SceneDescription& scene) {
+  const Vec3d origin = measureScene(scene);
+  const bool isFar = origin != Vec3d();
+  if (isFar) scene.origin = origin;
+  place({.body = 0}, isFar ? Affine::translation(-origin) : Affine(), kNoNode, {}, scene);
+  return origin;
+}
+
+// Hands the mesh to its last user, and a copy to the others.
 Mesh SceneLayout::take(Placement& placed, const std::string& body) {
   const std::shared_ptr<Mesh> mesh = std::move(placed.mesh);
   if (mesh.use_count() == 1) return std::move(*mesh);
@@ -117,7 +134,7 @@ Mesh SceneLayout::take(Placement& placed, const std::string& body) {
   return *mesh;
 }
 
-void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
+void SceneLayout::placeOnce(Body& body, const Affine& toWorld, OrderNumbers at,
                             SceneDescription& scene) {
   for (Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
@@ -140,13 +157,16 @@ void SceneLayout::addObject(Body& body, SceneDescription& scene) {
     if (placed.mesh->deformation) bent = &placed;
   }
   body.origin = bent ? bent->toParent.p : originOf(box);
+
   Object object{body.name, {}};
   for (Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
+
     Mesh mesh = take(placed, body.name);
     Affine toObject = placed.toParent;
     toObject.p = toObject.p - body.origin;
     if (!(toObject == Affine())) transform(mesh, toObject);
+
     mesh.rank = placed.at.rank;
     mesh.item = static_cast<std::uint32_t>(placed.at.item);
     object.meshes.push_back(std::move(mesh));
@@ -155,8 +175,10 @@ void SceneLayout::addObject(Body& body, SceneDescription& scene) {
 }
 
 void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uint32_t mover,
-                        Standing at, SceneDescription& scene) {
+                        OrderNumbers at, SceneDescription& scene) {
   Body& body = bodies_[placed.body];
+
+  // The items get their names.
   for (const Placement& own : body.placements) {
     const std::uint64_t number = at.item + own.at.item;
     if (number >= scene.itemNames.size()) break;
@@ -164,6 +186,8 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     const ItemName& name = own.item ? own.item : placed.item;
     scene.itemNames[number] = name ? *name : body.name;
   }
+
+  // The meshes go into the world, or become an object that has an instance here.
   if (body.places == 1 && mover == kNoNode) {
     placeOnce(body, toMover, at, scene);
   } else if (body.hasMeshes()) {
@@ -172,10 +196,12 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     const Affine toObject = isMoved ? toMover * Affine::translation(body.origin) : toMover;
     scene.instances.push_back({body.object, toObject, at.rank, mover, at.item});
   }
+
+  // The bodies in it follow; one that moves is carried by a node of its own.
   for (const Placement& child : body.placements) {
     if (child.isMesh()) continue;
     const Affine toChild = toMover * child.toParent;
-    Standing ofChild = at;
+    OrderNumbers ofChild = at;
     ofChild += child.at;
     if (child.motion) {
       const auto node = size32(scene.motion.rig);

@@ -16,7 +16,7 @@ namespace whit {
 
 namespace {
 
-// Numbers of one kind, `each` of which belong together.
+// Numbers of one kind; `each` is how many of them belong to one vertex or pixel.
 struct Column {
   std::span<const float> numbers;
   std::size_t each;

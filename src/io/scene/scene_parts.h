@@ -12,7 +12,7 @@
 
 namespace whit {
 
-// Arrays that are read when the scene is, and live for as long as `keep`.
+// A mesh as arrays. They are read whenever the scene is read, and live for as long as `keep`.
 struct GivenMesh {
   std::span<const float> positions;  // x, y, z of each vertex
   std::span<const float> normals;    // empty (flat shading), or x, y, z of each vertex
@@ -23,7 +23,7 @@ struct GivenMesh {
   std::shared_ptr<const void> keep;
 };
 
-// Interleaved channels, 1 to 4, in rows from the top: codes of 8 bits, or linear values.
+// An image of 1 to 4 interleaved channels, in rows from the top: codes of 8 bits, or linear values.
 struct GivenImage {
   int width = 0, height = 0, channels = 0;
   std::span<const std::uint8_t> codes;
@@ -33,15 +33,16 @@ struct GivenImage {
   std::size_t bytes() const { return codes.size_bytes() + values.size_bytes(); }
 };
 
-// By the names that the text calls them: {"mesh": "bunny"} in place of {"model": "bunny.ply"},
+// Meshes and images by the names under which the text refers to them: {"mesh": "bunny"} in place of
+// {"model": "bunny.ply"},
 // {"array": "wood"} in place of {"image": "wood.png"}.
 struct SceneParts {
   std::map<std::string, GivenMesh> meshes;
   std::map<std::string, GivenImage> images;
 };
 
-// Each throws Error(badScene) at `where` for arrays whose lengths do not go together, for numbers
-// that are not finite or out of their range, and for triangles of vertices that there are not.
+// Each throws Error(badScene) at `where` for arrays whose lengths do not fit together, for numbers
+// that are not finite or out of their range, and for triangles with vertices that do not exist.
 Mesh meshOf(const GivenMesh& given, const std::string& where);
 RawImage imageOf(const GivenImage& given, const std::string& where);
 

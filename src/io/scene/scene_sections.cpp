@@ -38,20 +38,23 @@ void readPath(JsonObject& file, SceneDescription& scene) {
   }
 }
 
-// Checks members that depend on each other.
+// Checks the members of a camera that depend on each other.
 void checkProjection(JsonObject& object, const Camera& camera) {
   const std::vector<float>& k = camera.k;
   if (camera.projection == Projection::fisheye) object.need("k");
   if (!k.empty() && !(k.size() >= 4 && k.size() <= 5 && k[0] > 0 && k[1] > 0)) {
     object.need("k").fail("[fx, fy, cx, cy], fx and fy above 0, and perhaps the skew");
   }
+
   if (!k.empty() && camera.kSize.size() != 2) {
     object.need("kSize").fail("the [width, height] of the picture that k is for");
   }
+
   const std::size_t most = isPerspective(camera) ? 8 : 4;
   if (camera.distortion.size() > most) {
     object.need("distortion").fail(concat("at most ", most, " coefficients"));
   }
+
   if (camera.orthographicHeight > 0 && !(k.empty() && camera.distortion.empty())) {
     object.value().fail("no orthographicHeight beside k or distortion");
   }
@@ -109,7 +112,7 @@ void setStudio(SceneContext& context) {
 
 constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
 
-// Numbers of a key: three of translation, the degrees, three of scale.
+// A key has three numbers of translation, the degrees, and three numbers of scale.
 constexpr std::size_t kKeyNumbers = 7;
 
 Vec3d readKeyScale(const JsonValue& value) {
@@ -120,7 +123,7 @@ Vec3d readKeyScale(const JsonValue& value) {
   return scale;
 }
 
-// `axis` is 0 before the first rotation.
+// Reads the rotation of a key, in degrees. `axis` is 0 before the first rotation.
 double readDegrees(const JsonValue& value, Vec3d& axis) {
   const auto [about, degrees] = readTurn(value);
   if (axis == Vec3d()) axis = about;
@@ -136,21 +139,24 @@ void readKey(const JsonValue& value, Track& track, Vec3d& axis) {
     time.fail("a time after that of the key before");
   }
   track.times.push_back(time.number());
+
   const Vec3d t = translate ? translate.vector() : Vec3d();
   const double degrees = rotate ? readDegrees(rotate, axis) : 0;
   const Vec3d s = scale ? readKeyScale(scale) : Vec3d(1.0);
   track.values.insert(track.values.end(), {t.x, t.y, t.z, degrees, s.x, s.y, s.z});
+
   key.finish();
 }
 
-// Along the line between the neighbors; at the ends along that to the only one, but where a loop
-// ends as it begins: there it goes on.
+// Gives each key the slope of the line between its neighbors as tangent. The first and the last key
+// have one neighbor, unless a loop ends as it begins: then the loop goes on through them.
 void addTangents(bool loops, Track& track) {
   const std::size_t last = track.times.size() - 1;
   const auto value = [&](std::size_t key) {
     return std::span(track.values).subspan(key * kKeyNumbers, kKeyNumbers);
   };
   const bool closed = loops && last > 1 && std::ranges::equal(value(0), value(last));
+
   std::vector<double> all;
   for (std::size_t i = 0; i <= last; ++i) {
     const bool joined = closed && (i == 0 || i == last);
@@ -158,6 +164,7 @@ void addTangents(bool loops, Track& track) {
     const std::size_t b = joined ? 1 : std::min(i + 1, last);
     double span = track.times[b] - track.times[a];
     if (joined) span += track.times[last] - track.times[0];
+
     std::vector<double> tangent(kKeyNumbers);
     for (std::size_t k = 0; a != b && k < kKeyNumbers; ++k) {
       tangent[k] = (value(b)[k] - value(a)[k]) / span;
@@ -183,7 +190,8 @@ double looped(double seconds, double first, double last) {
   return first + (within < 0 ? within + period : within);
 }
 
-void count(double seconds, SceneDescription& scene) {
+// Counts a motion of the file as part of the scene's animation kSceneMotion.
+void countMotion(double seconds, SceneDescription& scene) {
   const auto known = std::ranges::find(scene.animations, kSceneMotion, &Animation::name);
   Animation& all = known != scene.animations.end() ? *known : scene.animations.emplace_back();
   all.name = kSceneMotion;
@@ -209,6 +217,7 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
     scene.width = sides[0].integer(1, kImageSideLimit);
     scene.height = sides[1].integer(1, kImageSideLimit);
   }
+
   for (const auto& [name, value] : file.find("cameras").members()) {
     JsonObject object(value);
     object.need("eye");
@@ -216,6 +225,7 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
     Camera camera;
     camera.name = name;
     readCamera(object, camera);
+
     const auto index = size32(scene.cameras);
     if (const SharedMotion motion = readMotion(object, instant, scene)) {
       if (instant.moves()) {
@@ -223,6 +233,7 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
       }
       carry(Camera(camera), (*motion)(0), camera);
     }
+
     object.finish();
     scene.cameras.push_back(camera);
   }
@@ -237,6 +248,7 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
       throwBadScene(value.where(), "expected an option of the picture" + suggestion(name, names) +
                                        ", found \"" + excerpt(name) + "\"");
     }
+
     if (value.isObject() || value.isArray() || value.isNull()) {
       value.fail("a number, a word, true or false");
     }
@@ -266,6 +278,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
     light.name = object.find("name").textOr(concat("light ", scene.lights.size() + 1));
     light.pointer = value.pointer();
     readLight(object, light);
+
     MovingLight moving{size32(scene.lights), kNoNode, light.position, light.direction};
     if (const SharedMotion motion = readMotion(object, instant, scene)) {
       if (instant.moves()) {
@@ -274,6 +287,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
       }
       carry(moving, (*motion)(0), light);
     }
+
     object.finish();
     scene.lights.push_back(light);
   }
@@ -282,6 +296,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
 void readSky(JsonObject& file, SceneContext& context) {
   const JsonValue value = file.find("sky");
   if (!value) return;
+
   JsonObject object(value);
   Sky& sky = context.scene.sky;
   sky = Sky();
@@ -310,6 +325,7 @@ void readSky(JsonObject& file, SceneContext& context) {
         "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", with \"image\" or with "
         "\"preset\"");
   }
+
   sky.scale = scale;
   object.finish();
 }
@@ -327,7 +343,8 @@ void replaceSky(SceneContext& context) {
   }
 }
 
-// The ambient light's share of the sky says how open the scene is.
+// Returns the default of "reflection": the ambient light's share of the sky, which says how open
+// the scene is.
 float usualReflection(std::optional<double> fromSky) {
   return static_cast<float>(std::min(fromSky.value_or(1), 1.0));
 }
@@ -335,8 +352,10 @@ float usualReflection(std::optional<double> fromSky) {
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   const JsonValue value = file.find("ambient");
   if (!value) return std::nullopt;
+
   JsonObject object(value);
   scene.ambient.occlusion = object.number("occlusion", scene.ambient.occlusion, 0);
+
   std::optional<double> fromSky;
   if (const JsonValue strength = object.find("fromSky")) {
     fromSky = strength.number(0);
@@ -351,6 +370,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
     object.finish();
     value.fail("\"fromSky\", \"color\", \"up\" and \"down\", \"occlusion\" or \"reflection\"");
   }
+
   scene.ambient.reflection = object.number("reflection", usualReflection(fromSky), 0, 1);
   object.finish();
   return fromSky;
@@ -434,6 +454,7 @@ bool movePaths(Json& json, const std::filesystem::path& from, const std::filesys
     if (!value.is_string() || (key != "image" && key != "model")) continue;
     const auto text = value.get<std::string>();
     if (text.starts_with("$")) continue;  // $WHIT_DATA, wherever the scene is
+
     const std::filesystem::path file = absolutePath(from / text);
     const auto data = dataFolder();
     const auto inData = data.empty() ? data : file.lexically_relative(absolutePath(data));
@@ -463,6 +484,7 @@ SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescrip
     if (movableName(object, instant).empty()) return nullptr;
     return fixedMotion(Affine());
   }
+
   JsonObject motion(value);
   const JsonValue list = motion.need("keys");
   Track track{readInterpolation(motion), false, kKeyNumbers, {}, {}};
@@ -472,7 +494,8 @@ SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescrip
   const bool loops = motion.find("loop").flagOr(false);
   motion.finish();
   if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
-  count(track.times.back(), scene);
+
+  countMotion(track.times.back(), scene);
   return std::make_shared<const Motion>([track, axis, loops](double seconds) {
     const std::vector<double> v =
         valueAt(track, loops ? looped(seconds, track.times.front(), track.times.back()) : seconds);

@@ -42,7 +42,7 @@ struct SceneContext {
     scene.name = file.stem().string();
   }
 
-  // The model at `path`, which `where` names, opened once.
+  // Returns the model at `path`, which `where` names, and opens it if it is not open yet.
   Model& model(const std::filesystem::path& path, const std::string& where) {
     std::unique_ptr<Model>& entry = models[path.string()];
     if (entry) return *entry;
@@ -59,7 +59,7 @@ struct SceneContext {
   Progress* progress;
   SceneDescription scene;
   const SceneParts* parts = nullptr;  // parts of a scene that a program makes
-  std::string sky;                    // this and the next as in LoadOptions
+  std::string sky;                    // sky and instant are those of LoadOptions
   Instant instant;
   std::string knownSky;    // Sky::name of an image that the caller has, which is not read again
   bool hasGround = false;  // a model gets a shadow on the ground
@@ -73,29 +73,29 @@ inline bool seesByFov(const Camera& c) {
 }
 // Reads the members of a camera that are given; the others keep their values.
 void readCamera(JsonObject& object, Camera& camera);
-// "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
+// Reads "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
 // degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
-// "options": see sceneOptionNames().
+// Reads "options"; sceneOptionNames() lists them.
 void readOptions(JsonObject& file, SceneDescription& scene);
-// "lights": see scene/members.h for what each type has. "name" is free.
+// Reads "lights". What each type of light has is in scene/members.h; "name" is free.
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
-// "sky". Its image is there after context.textures.finish().
+// Reads "sky". Its image is there after context.textures.finish().
 void readSky(JsonObject& file, SceneContext& context);
 // Replaces the scene's sky if LoadOptions::sky names another.
 void replaceSky(SceneContext& context);
-// "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
-// is there.
+// Reads "ambient". Returns the strength that ambientFromSky() is to be called with once the sky's
+// image is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
 
-// A rotation [x, y, z, degrees]: the axis, which is not 0, and the degrees.
+// Reads a rotation [x, y, z, degrees]. Returns the axis, which is not 0, and the degrees.
 std::pair<Vec3d, double> readTurn(const JsonValue& value);
 
-// The member "motion" of `object` (scenes/README.md), which follows the object's other transforms;
-// null where there is none. Counts as the scene's animation kSceneMotion. An object that is moved
-// by hand always has a motion.
+// Reads the member "motion" of `object` (scenes/README.md), which follows the object's other
+// transforms; null if there is none. It counts as the scene's animation kSceneMotion. An object
+// that is moved by hand always has a motion.
 SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescription& scene);
-// The pointer to the object if it is moved by hand, otherwise empty.
+// Returns the pointer to the object if it is moved by hand, otherwise an empty text.
 std::string movableName(const JsonObject& object, const Instant& instant);
 
 // Returns the texture that replaces a map of a material. Its name is not null.
@@ -103,9 +103,9 @@ using ReadMap =
     std::function<std::int32_t(const JsonValue& name, const Member<Material, std::int32_t>& map)>;
 // Reads the members of a material that are given; the others keep their values.
 void readMaterial(JsonObject& object, const ReadMap& readMap, Material& material);
-// Warns of a material that is given more light to send out than it gets. Thin coats over white are
-// common, so a tenth too much is let pass. Parts with a map, and a lobe that only lights show, may
-// send out less than they state and are left out.
+// Warns of a material that would send out more light than it gets. Thin coats over white are
+// common, so a tenth too much is tolerated. Parts with a map, and a lobe that only lights show, may
+// send out less than they state and are left out of the sum.
 void warnOfSum(const Material& m, const std::string& where, Warnings& warnings);
 
 // The sections "textures" and "materials".
@@ -116,11 +116,11 @@ class MaterialReader {
   // TextureLoader::finish().
   MaterialReader(JsonObject& file, SceneContext& context);
 
-  // The index of the material that the text of `name` stands for.
+  // Returns the index of the material called by the text of `name`.
   std::uint32_t find(const JsonValue& name) const;
-  // The material of items that name none: the one called "default", or else a gray one.
+  // Returns the material of items that name none: the one called "default", or else a gray one.
   std::uint32_t defaultMaterial();
-  // Adds the material as it is, returns its index.
+  // Adds the material as it is, and returns its index.
   std::uint32_t add(Material material);
 
   // Reads the textures that no material names, so that their errors are reported.
@@ -148,10 +148,10 @@ class MaterialReader {
   std::optional<std::uint32_t> default_;
 };
 
-// "objects" and "scene": fills in the scene's objects and instances.
+// Reads "objects" and "scene": fills in the scene's objects and instances.
 void readItems(JsonObject& file, SceneContext& context, MaterialReader& materials);
-// A scene that is a model and nothing else, except that the section "materials" of `file` replaces
-// members of its materials.
+// Reads a model as a scene of its own. The section "materials" of `file` replaces members of its
+// materials.
 void readModelAlone(JsonObject& file, const std::filesystem::path& path, SceneContext& context,
                     MaterialReader& materials);
 

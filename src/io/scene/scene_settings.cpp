@@ -19,7 +19,8 @@
 namespace whit {
 namespace {
 
-// Empty unless `text` is a pointer to something inside.
+// Returns the tokens of a JSON pointer; none if `text` is not a pointer, or one to the whole
+// document.
 std::vector<std::string> tokensOf(const std::string& text) {
   std::vector<std::string> tokens;
   try {
@@ -33,7 +34,7 @@ std::vector<std::string> tokensOf(const std::string& text) {
   return tokens;
 }
 
-// The index of an element of `list`, or of a new element.
+// Returns the index of an element of `list`, or of a new element.
 std::size_t indexOf(const std::string& token, const Json& list, const JsonValue& place) {
   if (token == "-") return list.size();
   std::size_t index = 0;
@@ -91,7 +92,8 @@ bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, Sc
   if (suppliesRadius) return false;
 
   context.knownSky = scene.sky.name;
-  // The studio of a model is none that the settings describe, and as bright as its lights are.
+  // The studio of a model is supplied, not described by settings, and as bright as suits its
+  // lights.
   const bool isSupplied =
       hasSuppliedSky(document) || (isModelAlone(document) && !document.root.contains("sky"));
   if (isSupplied && scene.sky.name == kStudio) {
@@ -169,8 +171,8 @@ SceneSetting parseSceneSetting(const std::string& text) {
   throwUsage(wanted);
 }
 
-// The last of those that have to do with the member can go if it is of that very member: the ones
-// after it could as well come before it.
+// The last setting that is related to the member is removed if it sets that very member. The
+// settings behind it are not related, so the new one may as well come after them.
 void addSceneSetting(const std::string& text, std::vector<std::string>& settings) {
   const std::vector<std::string> tokens = parseSceneSetting(text).tokens;
   const std::string section = "/" + escapePointer(tokens.front());
@@ -220,6 +222,8 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
                const JsonDocument& document, Warnings& warnings, Scene& scene) {
   bool shading = false, lights = false, view = false, surroundings = false;
   std::vector<Material> materials = scene.materials;
+
+  // Each setting touches one part of the scene, or makes it necessary to read the scene again.
   for (const auto& [tokens, value] : touched) {
     const std::string& section = tokens.front();
     if (section == "lights") {
@@ -248,6 +252,8 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
 
   SceneDescription& read = context.scene;
   if (!lights) read.lights = scene.lights;
+
+  // An image of the sky that was there before is not read again. An error gives it back.
   const bool sameImage = surroundings && !read.sky.name.empty() && read.sky.name == scene.sky.name;
   if (sameImage) std::swap(read.sky.image, scene.sky.image);
   try {

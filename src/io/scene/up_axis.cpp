@@ -9,8 +9,8 @@
 namespace whit {
 namespace {
 
-// Areas of a model's triangles that face an axis: those at an end of the box count as a share of
-// the box's side there.
+// Areas of a model's triangles that face an axis. Those at an end of the box are shares of the
+// box's side there.
 struct FlatParts {
   double lower = 0, upper = 0, between = 0;
 };

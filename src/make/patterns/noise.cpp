@@ -22,7 +22,7 @@ std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int3
   return mix(h ^ (static_cast<std::uint32_t>(z) + 0x2545f491u));
 }
 
-// Has one round instead of four, because patterns take millions of these hashes.
+// Mixes once and not four times as hash() does, because patterns take millions of these hashes.
 std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return mix(static_cast<std::uint32_t>(x) * 0x8da6b343u ^
              static_cast<std::uint32_t>(y) * 0xd8163841u ^ seed * 0xcb1ab31fu);
@@ -30,14 +30,14 @@ std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// Is std::floor() without a call, for numbers that fit into 32 bits.
+// Computes std::floor() without a call, for numbers that fit into 32 bits.
 std::int32_t floorOf(double x) {
   const auto i = static_cast<std::int32_t>(x);
   return i - (i > x);
 }
 
 std::int32_t wrapped(std::int32_t i, int period) {
-  if (period <= 0 || (i >= 0 && i < period)) return i;  // mostly, and a division takes long
+  if (period <= 0 || (i >= 0 && i < period)) return i;  // the usual case needs no slow division
 
   const std::int32_t r = i % period;
   return r < 0 ? r + period : r;
@@ -50,7 +50,7 @@ constexpr double kDiagonal = 0.70710678118654752440;
 constexpr double kSlopeX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
 constexpr double kSlopeY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
 
-// The slopes point to the middles of a cube's twelve edges (Perlin 2002).
+// Returns a ramp whose slope points to the middle of one of a cube's twelve edges (Perlin 2002).
 double slope3(std::uint32_t h, double x, double y, double z) {
   const std::uint32_t k = h % 12u;
   const double a = k < 8 ? x : y;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace procedural;
 
-// Every pattern has the parameter `size`, texels a side.
+// Returns a texture without texels. Every pattern has the parameter `size`, the texels of a side.
 Texture blank(ShapeParameters& parameters, int fallback, TexelFormat format) {
   Texture texture;
   texture.format = format;
@@ -35,8 +35,9 @@ void forEachTexel(int side, Visitor&& visit) {
   }
 }
 
-// A formula is copied each time that a texture is painted, because its noise keeps what it has
-// computed last. `codeOf` encodes what the formula returns for u and v.
+// Returns a texture that is painted when its texels are needed. `codeOf` encodes what the formula
+// returns for u and v. The formula is copied for each painting, because its noise keeps the last
+// cell.
 template <typename Formula, typename Code>
 Texture paint(Texture texture, const Formula& formula, const Code& codeOf) {
   texture.shared = std::make_shared<SharedTexels>([formula, codeOf, side = texture.width] {

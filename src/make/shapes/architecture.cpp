@@ -14,7 +14,7 @@ namespace whit::procedural {
 
 namespace {
 
-// A solid is a plan in the x-y plane pulled along z.
+// A solid is a plan in the x-y plane that is extruded along z.
 using PlanPoint = std::array<double, 2>;
 // Four corners, counter-clockwise. Cells meet edge to edge with equal coordinates; an edge that
 // only one cell has belongs to the outline.
@@ -446,7 +446,7 @@ Shape makeColumn(ShapeParameters& parameters) {
   return buildColumn(plan);
 }
 
-// Columns in a row along x, in the middle of it at the origin; slots shaft, trim, wall, arch.
+// Columns in a row along x, whose middle is at the origin; slots shaft, trim, wall, arch.
 Shape makeColonnade(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 5, 1, 10000);
   const double spacing = parameters.length("spacing", 3);

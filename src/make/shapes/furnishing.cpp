@@ -68,8 +68,8 @@ Outline smoothed(const Outline& points, int pieces) {
 
 }  // namespace
 
-// Hangs from y = 0 down to -height in the x-y plane, seen from +z; folds deepen downwards and
-// wander a little; `gather` pulls the sides together at the given part of the height.
+// A curtain that hangs from y = 0 down to -height in the x-y plane, seen from +z. Its folds deepen
+// downwards and wander a little; `gather` pulls its sides together at the given part of the height.
 Shape makeCurtain(ShapeParameters& parameters) {
   const double width = parameters.length("width", 2);
   const double height = parameters.length("height", 3);
@@ -106,8 +106,8 @@ Shape makeCurtain(ShapeParameters& parameters) {
   return singlePart(builder.take("curtain"));
 }
 
-// Spans along x between two bars at y = 0 and sags in between, with creases across the span; width
-// along x, depth along z. Faces down, where it is looked at from.
+// A cloth that spans along x between two bars at y = 0 and sags in between, with creases across the
+// span; width is along x, depth along z. It faces down, because it is seen from below.
 Shape makeCanopy(ShapeParameters& parameters) {
   const double width = parameters.length("width", 6);
   const double depth = parameters.length("depth", 2);
@@ -167,8 +167,8 @@ Shape makeVase(ShapeParameters& parameters) {
   return singlePart(builder.take("vase"));
 }
 
-// A straight drinking glass: a closed solid of glass with a thick base. What fills it is a cylinder
-// of its own that overlaps the inner wall (nested dielectrics: the higher priority wins).
+// A straight drinking glass: a closed solid of glass with a thick base. A liquid in it is a
+// cylinder of its own that overlaps the inner wall (nested dielectrics: the higher priority wins).
 Shape makeTumbler(ShapeParameters& parameters) {
   const double radius = parameters.number("radius", 0.4, 1e-6, 1e9);
   const double height = parameters.number("height", 1.2, 1e-6, 1e9);

@@ -345,8 +345,8 @@ Shape makeTree(ShapeParameters& parameters) {
 }
 
 // One tree and the places of its copies on the ground of a `terrain` with the same seed, size,
-// height, valley and floor. As many as make up `triangles` when multiplied out, or `trees`.
-// `forestSeed` tells forests on the same ground apart. Slots bark, leaves.
+// height, valley and floor. There are `trees` copies, or as many as have `triangles` triangles
+// together. `forestSeed` tells forests on the same ground apart. Slots bark, leaves.
 Shape makeForest(ShapeParameters& parameters) {
   const Ground ground(parameters);
   const std::uint32_t seed = parameters.seed("forestSeed");
@@ -418,7 +418,7 @@ Shape makePlant(ShapeParameters& parameters) {
                12);
 
   for (int k = 0; k < leaves; ++k) {
-    const double t = (k + 0.5) / leaves;  // outer leaves first, they lie lower
+    const double t = (k + 0.5) / leaves;  // the first leaves are the outer ones, which lie lower
     const double angle = 2.39996 * k + random.between(-0.2, 0.2);
     const double lift = lerp(0.55, 1.5, t) + random.between(-0.1, 0.1);
     const double size = height * lerp(0.85, 1.1, random.next());

@@ -191,7 +191,7 @@ Shape makeTorus(ShapeParameters& parameters) {
   return finished(builder.take("torus"), parameters);
 }
 
-// Faces up.
+// A disc that faces up.
 Shape makeDisc(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
   const int segments = segmentsOf(parameters, 64);
@@ -211,7 +211,7 @@ Shape makeDisc(ShapeParameters& parameters) {
   return singlePart(builder.take("disc"));
 }
 
-// Faces up, centered on the origin: width along x, depth along z.
+// A rectangle that faces up, centered on the origin: width along x, depth along z.
 Shape makeQuad(ShapeParameters& parameters) {
   const double width = side(parameters, "width", 2), depth = side(parameters, "depth", 2);
   const double repeat = repeatOf(parameters, 0);

@@ -58,7 +58,9 @@ def _shipped_scenes() -> str:
 class Picture:
     """A rendered picture, or a crop of one. Its arrays are C-contiguous, except `srgb`; torch and
     others take them by DLPack or the buffer protocol without a copy. They are views of the
-    picture's memory: what is written to them gets into its files.
+    picture's memory, and what is written to them gets into files: `rgb` and `channels` into .exr
+    files, a channel also into files of its own, and `rgba` into .png and .jpg files and png().
+    Changes of `rgb` do not reach `rgba`, nor the other way round.
 
     Pickles keep all of a picture, for the same version of whit.
     """
@@ -76,7 +78,7 @@ class Picture:
 
     rgba: np.ndarray = _native("rgba", (
         "sRGB codes after exposure and tone curve, and alpha: (height, width, 4), uint8, top row "
-        "first. Alpha is 255 but with background='transparent'."))
+        "first. Alpha is 255 unless background='transparent'."))
 
     @property
     def srgb(self) -> np.ndarray:
@@ -96,7 +98,8 @@ class Picture:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A channel, "position" (height, width, 3), or one component by its name in files,
-        "depth.Z" (height, width), which is a copy."""
+        "depth.Z" (height, width), which is a copy where the channel has several: what is written to
+        it is in no file."""
         channel, _, component = name.partition(".")
         kept = self._object.channels
         if channel not in kept:
@@ -148,8 +151,8 @@ class Picture:
         return self._statistics.get("receipt")
 
     def write(self, path: Union[str, os.PathLike]) -> None:
-        """Writes .exr (linear, float), .png or .jpg (8-bit sRGB), with the render's options but for
-        .jpg. "x.depth.exr" and "x.depth.png" hold that channel alone."""
+        """Writes .exr (linear, float), .png or .jpg (8-bit sRGB), with the render's options except
+        in .jpg. "x.depth.exr" and "x.depth.png" hold that channel alone."""
         self._object.write(os.fspath(path))
 
     def png(self) -> bytes:
@@ -280,7 +283,9 @@ class Scene:
             self._object = _whit.load(*self._source, self._load, _shipped_scenes(), progress)
 
     def __getstate__(self) -> dict[str, Any]:
-        state = {**self.__dict__, "_load": {**self._load, "settings": self._object.settings}}
+        # copy.copy() would share a dict that is changed later.
+        state = {**self.__dict__, "_load": {**self._load, "settings": self._object.settings},
+                 "_transforms": dict(self._transforms)}
         del state["_object"]
         return state
 
@@ -368,7 +373,8 @@ class Scene:
     def set_transform(self, pointer: str, matrix: Any) -> None:
         """Sets the transform of one of `movable`, which replaces its own motion.
 
-        matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units.
+        matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units. It is
+            applied after the own `transform` of a scene's item, and replaces that of a glTF node.
         """
         rows = _arrays.matrix(matrix, "matrix")
         self._object.set_transform(pointer, rows)
