@@ -89,6 +89,8 @@ class Session {
   bool orbits() const { return control_.orbits(); }
   void holdStill();  // pauses the animation and the flight, so that the picture sharpens
 
+  bool hasPick() const { return picked_.has_value(); }  // the rays of a pixel are shown, or will be
+
   // Returns the command that makes the view shown; of one that is not sharp yet, as it will be.
   std::string command() const;
 
