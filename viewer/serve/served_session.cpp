@@ -299,6 +299,8 @@ Json ServedSession::liveJson() const {
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
             {"embree", stats.embreeMs()}};
+  json["closes"] =
+      !state.error.empty() || session_.hasPick() || session_.isReading() || session_.choosesScene();
   if (timeline.there) json["time"] = {timeline.seconds, timeline.length, timeline.playing};
 
   // The frame's statistics are listed by stage and by kind of ray.
