@@ -184,6 +184,18 @@ def test_escape(browser, server):
     check(browser.run("return document.getElementById('keys').offsetHeight > 0"), "H opens it with the keys")
 
 
+def test_camera_list(browser, server):
+    open_page(browser, server)
+    chosen = "document.getElementById('cameras').selectedOptions[0].textContent"
+    browser.key("Digit2", "2")
+    browser.wait(f"{chosen} === 'through'")
+    browser.key("KeyW", "w", pause=0.3)
+    browser.wait(f"{chosen} === 'free view'")
+    browser.key("Digit1", "1")
+    browser.wait(f"{chosen} === 'main'")
+    check(True, "the list of cameras says which one is shown, and that none is")
+
+
 def test_focus_of_effects(browser, server):
     """The box that Space has switched keeps the focus, so that Tab goes on from there."""
     open_page(browser, server)
@@ -326,7 +338,8 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    for test in (test_rays, test_layouts, test_escape, test_focus_of_effects, test_lost_release, test_no_scene):
+    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_lost_release,
+                 test_no_scene):
         test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)

@@ -301,6 +301,7 @@ Json ServedSession::liveJson() const {
             {"embree", stats.embreeMs()}};
   json["closes"] =
       !state.error.empty() || session_.hasPick() || session_.isReading() || session_.choosesScene();
+  if (state.followed) json["camera"] = *state.followed;
   if (timeline.there) json["time"] = {timeline.seconds, timeline.length, timeline.playing};
 
   // The frame's statistics are listed by stage and by kind of ray.
