@@ -251,7 +251,8 @@ bool Session::fetchFrame() {
   }
 
   // The answer to a pick and the samples of an unfinished picture are shown without a new frame.
-  if (auto pick = thread_.takePick(); pick && picked_) {
+  // An answer to an earlier pick may come after the last one.
+  if (auto pick = thread_.takePick(); pick && picked_ && samePick(pick->query, *picked_)) {
     state_.rays = std::move(*pick);
     if (std::exchange(selects_, false)) {
       state_.selected = select(state_.rays);
