@@ -694,6 +694,7 @@ void Session::chooseView(const std::string& name) {
 
 void Session::measure() {
   state_.measures = !state_.measures;
+  if (state_.measures) holdStill();  // costs are measured at rest
   restSeconds_ = 0;
 }
 
