@@ -97,7 +97,7 @@ void App::close() {
     session_.say("the picture will not be saved");
   } else if (shown_.over != Over::nothing && !session_.choosesScene()) {
     shown_.over = Over::nothing;
-  } else if (session_.state().rays.scene) {
+  } else if (session_.hasPick()) {
     session_.act("forget");
   } else if (window_.isFullScreen()) {
     window_.toggleFullScreen();

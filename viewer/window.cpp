@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -54,6 +55,18 @@ std::string nameOfKey(int key) {
   const bool isLetter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
   const bool isDigit = key >= GLFW_KEY_0 && key <= GLFW_KEY_9;
   return isLetter || isDigit ? std::string(1, static_cast<char>(key)) : "";
+}
+
+// Returns what a key says in the user's layout; the name of its place where the viewer knows no key
+// of that name, as of the Ü that has the place of [.
+std::string labelOfKey(const std::string& place, int key, int scancode) {
+  const char* const says = glfwGetKeyName(key, scancode);
+  if (!says) return place;
+
+  std::string label = says;
+  if (label.size() == 1) label[0] = static_cast<char>(std::toupper(label[0]));
+  const std::vector<std::string> known = keyNames();
+  return std::ranges::find(known, label) != known.end() ? label : place;
 }
 
 // Fonts of Debian, Fedora, Arch and macOS; the first that exists is used.
@@ -329,7 +342,7 @@ void Window::end() {
 
 void Window::present() { glfwSwapBuffers(window_); }
 
-void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
+void Window::onKey(GLFWwindow* window, int key, int scancode, int action, int mods) {
   Input& input = windowOf(window).input;
   input.happened = true;
   const std::string name = nameOfKey(key);
@@ -338,7 +351,10 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
     // A key with Ctrl is a command, and is not held.
     const bool commands = (mods & GLFW_MOD_CONTROL) != 0;
-    input.pressed.push_back(commands ? "Ctrl+" + name : name);
+    const bool moves =
+        !commands && !name.empty() && std::string_view("WASDQE").find(name) != std::string::npos;
+    const std::string label = moves ? name : labelOfKey(name, key, scancode);
+    input.pressed.push_back(commands ? "Ctrl+" + label : label);
     if (!commands) input.held.insert(name);
   }
 }

@@ -168,6 +168,34 @@ def test_layouts(browser, server):
     browser.wait("whit.settled.view === 'none'")
 
 
+def test_escape(browser, server):
+    """Esc closes the rays of a pixel, then the panel, and opens nothing."""
+    open_page(browser, server)
+    is_bare = "document.body.classList.contains('bare')"
+    browser.click(*middle(browser))
+    browser.wait("whit.settled.tree")
+    browser.key("Escape", "Escape")
+    browser.wait("!whit.settled.tree")
+    check(not browser.run(f"return {is_bare}"), "Esc closes the rays and keeps the panel")
+    for what in ("closes the panel", "keeps it closed"):
+        browser.key("Escape", "Escape")
+        check(browser.run(f"return {is_bare}"), f"Esc {what}")
+    browser.key("KeyH", "h")
+    check(browser.run("return document.getElementById('keys').offsetHeight > 0"), "H opens it with the keys")
+
+
+def test_camera_list(browser, server):
+    open_page(browser, server)
+    chosen = "document.getElementById('cameras').selectedOptions[0].textContent"
+    browser.key("Digit2", "2")
+    browser.wait(f"{chosen} === 'through'")
+    browser.key("KeyW", "w", pause=0.3)
+    browser.wait(f"{chosen} === 'free view'")
+    browser.key("Digit1", "1")
+    browser.wait(f"{chosen} === 'main'")
+    check(True, "the list of cameras says which one is shown, and that none is")
+
+
 def test_focus_of_effects(browser, server):
     """The box that Space has switched keeps the focus, so that Tab goes on from there."""
     open_page(browser, server)
@@ -310,7 +338,8 @@ try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
         test(browser, server)
-    for test in (test_rays, test_layouts, test_focus_of_effects, test_lost_release, test_no_scene):
+    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_lost_release,
+                 test_no_scene):
         test(browser, spheres)
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
     test_nothing_else(browser, server)

@@ -5,7 +5,7 @@
 set -euo pipefail
 
 view=$(realpath "$1")
-for program in Xvfb xdotool openbox; do
+for program in Xvfb xdotool openbox setxkbmap; do
   if ! command -v "$program" >/dev/null; then
     echo "!! $program is not installed: real input is NOT checked" >&2
     exit 77
@@ -79,6 +79,8 @@ export DISPLAY
 openbox >/dev/null 2>&1 &
 children+=($!)
 within managed
+# On a German keyboard Z and Y change places, and Ü has the place of [.
+setxkbmap de
 cd "$work"  # where files are saved
 "$view" matte --size 320x200 --quiet >"$work/out" 2>"$work/err" &
 viewer=$!
@@ -130,6 +132,18 @@ within printed $prints
 [ -s matte-edited.json ] || fail "Ctrl+S has saved nothing"
 look
 [ "$(option eye)" = "$eye" ] || fail "Ctrl+S has moved the camera"
+
+# Commands go by what a key says.
+exposure=$(option exposure)
+xdotool key udiaeresis
+within moved exposure "$exposure"
+darker=$(option exposure)
+xdotool key ctrl+y
+look
+[ "$(option exposure)" = "$darker" ] || fail "Ctrl+Y is taken for Ctrl+Z"
+xdotool key ctrl+z
+within moved exposure "$darker"
+[ "$(option exposure)" = "$exposure" ] || fail "Ctrl+Z has not undone it"
 
 first=$(size)
 xdotool key F11

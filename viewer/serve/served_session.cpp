@@ -162,10 +162,10 @@ void ServedSession::step(double seconds) {
   }
 
   const view::ViewState& state = session_.state();
-  const int errors = state.errors;
+  const int errors = state.errors, selections = state.selections;
   changed_ |= session_.fetchFrame();
   for (const Message& message : messages) serve(message);
-  said_ |= !messages.empty() || state.errors != errors;
+  said_ |= !messages.empty() || state.errors != errors || state.selections != selections;
   changed_ |= said_;
 
   // Downloads get the first frame with full resolution and all samples.
@@ -240,9 +240,9 @@ void ServedSession::publish() {
   shot->exact = wasSharp_ = state.sharp;
   shot->live = textOf(liveJson());
 
-  // Settings and the ray tree are written only after an action of the user, at rest, and with the
-  // first picture of a scene, which may play at once. Pages get them only if they differ from the
-  // last ones.
+  // Settings and the ray tree are written only after an action of the user, when the rays of a
+  // pixel come, at rest, and with the first picture of a scene, which may play at once. Pages get
+  // them only if they differ from the last ones.
   const std::shared_ptr<const OpenScene> settled = std::exchange(settled_, state.shown.scene);
   const bool said = std::exchange(said_, false) || rests || settled != settled_;
   changed_ = false;
@@ -299,6 +299,9 @@ Json ServedSession::liveJson() const {
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
             {"embree", stats.embreeMs()}};
+  json["closes"] =
+      !state.error.empty() || session_.hasPick() || session_.isReading() || session_.choosesScene();
+  if (state.followed) json["camera"] = *state.followed;
   if (timeline.there) json["time"] = {timeline.seconds, timeline.length, timeline.playing};
 
   // The frame's statistics are listed by stage and by kind of ray.

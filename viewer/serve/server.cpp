@@ -403,6 +403,10 @@ class Server::Http : public httplib::Server {
       response.set_content(page, "text/html; charset=utf-8");
     });
 
+    // Some programs paste the address without its last slash.
+    Get("/" + server_.token_,
+        [root](const Request&, Response& response) { response.set_redirect(root); });
+
     Get(root + "stream", [this](const Request&, Response& response) { stream(response); });
     Get(root + "picture.png", [this](const Request&, Response& r) { download(r, false); });
     Get(root + "picture.exr", [this](const Request&, Response& r) { download(r, true); });
@@ -430,12 +434,14 @@ class Server::Http : public httplib::Server {
 
     const std::string_view path = request.path;
     constexpr std::size_t kTokenEnd = 33;  // "/" and 32 digits
-    const bool shown = path.size() > kTokenEnd && path[0] == '/' && path[kTokenEnd] == '/' &&
-                       sameToken(path.substr(1, kTokenEnd - 1), server_.token_);
+    const bool ends =
+        path.size() == kTokenEnd || (path.size() > kTokenEnd && path[kTokenEnd] == '/');
+    const bool shown =
+        ends && path[0] == '/' && sameToken(path.substr(1, kTokenEnd - 1), server_.token_);
     if (!shown) return 403;
 
     // The page, its stream, two pictures and its input are all that there is below the token.
-    const std::string_view thing = path.substr(kTokenEnd + 1);
+    const std::string_view thing = path.substr(std::min(path.size(), kTokenEnd + 1));
     const bool isInput = thing == "input";
     const bool isOther =
         thing.empty() || thing == "stream" || thing == "picture.png" || thing == "picture.exr";

@@ -109,6 +109,11 @@ inline bool sameRays(const RayQuery& a, const RayQuery& b) {
   return samePicture(a.picture, b.picture) && a.x == b.x && a.y == b.y;
 }
 
+// Returns whether both are of one pixel of one view, at whatever time.
+inline bool samePick(const RayQuery& a, const RayQuery& b) {
+  return a.x == b.x && a.y == b.y && sameView(a.picture.camera, b.picture.camera);
+}
+
 struct RayPick {
   std::shared_ptr<const OpenScene> scene;  // null: nothing was picked
   RayQuery query;

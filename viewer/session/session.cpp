@@ -257,7 +257,8 @@ void Session::takeTracingError() {
 // new frame. Returns whether there was one of them.
 bool Session::takeAnswers() {
   bool answered = false;
-  if (auto pick = thread_.takePick(); pick && picked_) {
+  // An answer to an earlier pick may come after the last one.
+  if (auto pick = thread_.takePick(); pick && picked_ && samePick(pick->query, *picked_)) {
     state_.rays = std::move(*pick);
     if (std::exchange(selects_, false)) {
       state_.selected = select(state_.rays);
@@ -708,6 +709,7 @@ void Session::chooseView(const std::string& name) {
 
 void Session::measure() {
   state_.measures = !state_.measures;
+  if (state_.measures) holdStill();  // costs are measured at rest
   restSeconds_ = 0;
 }
 

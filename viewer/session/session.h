@@ -90,6 +90,8 @@ class Session {
   bool orbits() const { return control_.orbits(); }
   void holdStill();  // pauses the animation and the flight, so that the picture sharpens
 
+  bool hasPick() const { return picked_.has_value(); }  // the rays of a pixel are shown, or will be
+
   // Returns the command that makes the view shown, as it will be when it is sharp.
   std::string command() const;
 

@@ -100,7 +100,9 @@ std::span<const Verb> Session::verbs() {
       {"close", "Esc",
        "give up what is read or awaited, close what is open; a window then quits, but asks before "
        "edits are lost",
-       [](S s, M) { s.close(); }},
+       [](S s, M) {
+         if (!s.close()) s.forgetRays();
+       }},
 
       // These have controls instead of keys.
       {.name = "scene", .act = [](S s, M m) { s.openShipped(m.text); }, .text = true},
