@@ -134,8 +134,9 @@ void App::savePicture() {
   printLine(session_.command());
 
   const Image& image = frame.film.image;
-  session_.say(formatted("saved %s, %d x %d, %d samples a pixel", files.c_str(), image.width,
-                         image.height, frame.request.spp));
+  const int spp = frame.request.spp;
+  session_.say(formatted("saved %s, %d x %d, %d %s a pixel", files.c_str(), image.width,
+                         image.height, spp, spp == 1 ? "sample" : "samples"));
 }
 
 void App::copyCommand() {
@@ -172,7 +173,9 @@ void App::open(const std::string& file) {
   const std::string extension = extensionOf(file);
   const bool isSky = extension == ".hdr" || extension == ".exr";
   if (!isSky || session_.choosesScene()) {
-    if (mayLoseEdits("drop the file again")) session_.open(file);
+    if (!mayLoseEdits("drop the file again")) return;
+    savesPicture_ = false;  // a picture of the scene before is not completed any more
+    session_.open(file);
     return;
   }
 

@@ -183,5 +183,14 @@ TEST_F(Viewer, EscapeEndsTheWaitForThePicture) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny-0001.png"));
 }
 
+// Another scene never completes the picture that was to be saved.
+TEST_F(Viewer, AnotherSceneEndsTheWaitForThePicture) {
+  std::filesystem::copy(folder_ / "tiny.json", folder_ / "other.json");
+  play("asked\nkey D 0.3\nkey F12\ndrop other.json\nwait 60 frames\nwait sharp\nkey C\n",
+       {"--size", "400x300", "--spp", "64"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny-0001.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "other-0001.png"));
+}
+
 }  // namespace
 }  // namespace whit::view
