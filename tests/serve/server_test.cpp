@@ -191,10 +191,20 @@ TEST_F(Serving, OnlyThoseWithTheTokenAreAnswered) {
   std::string wrong = root_;
   wrong[5] ^= 1;
   for (const std::string& path :
-       {std::string("/"), wrong, root_.substr(0, 33), wrong + "stream", std::string("/etc/passwd"),
+       {std::string("/"), wrong, root_.substr(0, 32), wrong + "stream", std::string("/etc/passwd"),
         "/" + root_, root_.substr(0, 20) + "/", std::string("/../../etc/passwd")}) {
     EXPECT_EQ(status(path), 403) << path;
   }
+}
+
+// Some programs paste the address without its last slash.
+TEST_F(Serving, TheAddressMayLackItsLastSlash) {
+  const std::string bare = root_.substr(0, root_.size() - 1);
+  const auto answer = client().Get(bare);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 302);
+  EXPECT_EQ(answer->get_header_value("Location"), root_);
+  EXPECT_EQ(status(bare + "0"), 403);
 }
 
 TEST_F(Serving, NoPathLeadsToAFile) {
@@ -491,6 +501,26 @@ TEST_F(ServingNoScene, SaysWhatASceneThatPlaysHas) {
   EXPECT_TRUE(isTold(tables, "\"scenes\""));
   post("scene ab");
   EXPECT_TRUE(isTold(settled, "ab, 12 triangles"));
+}
+
+// The rays of a pixel are listed although the picture never rests, and are never those of an
+// earlier pixel.
+TEST_F(ServingNoScene, AClickWhileItPlaysListsTheRaysOfItsPixel) {
+  post("scene ab");
+  EXPECT_TRUE(isTold(settled, "ab, 12 triangles"));
+  for (const int x : {10, 12, 14, 16, 18, 20, 22, 24}) {
+    post(formatted("click %d 9", x));
+    EXPECT_TRUE(isTold(settled, formatted("\"pixel\":[%d,9]", x)));
+  }
+}
+
+// Costs are measured at rest.
+TEST_F(ServingNoScene, MeasuringPausesWhatPlays) {
+  post("scene ab");
+  EXPECT_TRUE(isTold(live, ",true]"));
+  post("measure");
+  EXPECT_TRUE(isTold(live, ",false]"));
+  EXPECT_TRUE(isTold(settled, "\"costs\""));
 }
 
 // What the table of verbs leaves to the page is in the page's script.
