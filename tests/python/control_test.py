@@ -107,7 +107,7 @@ class Control(unittest.TestCase):
                                ({"size": "wide"}, "size"), ({"size": (0, 5)}, "size"),
                                ({"tonemap": "flmic"}, "filmic"), ({"fov": float("nan")}, "fov"),
                                ({"eye": (1, 2)}, "eye"), ({"crop": (0, 0, 1000, 9)}, "crop"),
-                               ({"sphere_segments": 16}, "sphere-segments"),
+                               ({"sphere_segments": 16}, "sphere_segments"),
                                ({"simd": "sse9"}, "simd"), ({"depth": 2**70}, "depth")):
             with self.subTest(**options), self.assertRaises(whit.Error) as caught:
                 self.scene.render(**options)
