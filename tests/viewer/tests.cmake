@@ -13,7 +13,7 @@ if(TARGET whit-view)
   endif()
   whit_tests(viewer whit_view)
   target_sources(viewer_test PRIVATE viewer/script.cpp)
-  target_include_directories(viewer_test PRIVATE ${WHIT_IMGUI_INCLUDE_DIR})
+  target_include_directories(viewer_test SYSTEM PRIVATE ${WHIT_IMGUI_INCLUDE_DIR})
   whit_runs_programs(viewer whit whit-view whit-view-script)
   if(NOT WHIT_SANITIZE)
     whit_program_test(viewer viewer.takes_real_input
