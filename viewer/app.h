@@ -54,7 +54,7 @@ class App {
   void drawOver(float bottom, std::vector<std::string>& said);
   void inspectPointed() const;
 
-  // What keys, mouse and panel do, in app_keys.cpp.
+  // These carry out what keys, mouse and panel ask for; they are in app_keys.cpp.
   void handleInput();
   void move(const Input& input);
   void act(const std::string& line);

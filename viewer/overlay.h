@@ -1,5 +1,5 @@
-// What is drawn over the picture besides the panel and the rays, between NewFrame and Render of
-// Dear ImGui. What the user asks for there is appended to `said`, in lines of verbs.
+// These functions draw over the picture all but the panel and the rays, between NewFrame and Render
+// of Dear ImGui. They append what the user asks for to `said`, in lines of verbs.
 #pragma once
 
 #include <array>

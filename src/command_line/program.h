@@ -1,5 +1,5 @@
-// What every main() does: errors become exit statuses, and an interruption (Control-C, SIGTERM)
-// ends the program at once with status 130 and leaves no half-written file.
+// Every main() runs its work through this file: errors become exit statuses, and an interruption
+// (Control-C, SIGTERM) ends the program at once with status 130 and leaves no half-written file.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,7 @@
 
 namespace whit {
 
-// Of models with more triangles only a sample is looked at.
+// If a model has more triangles, only a sample of them is looked at.
 inline constexpr std::uint64_t kMostLookedAt = 4'000'000;
 inline constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
 

@@ -40,7 +40,7 @@ std::string colorOf(RayLook look);  // color of its lines, "#ff0000"
 // The words that describe a ray of the packets.
 struct RayText {
   std::string hit, medium;  // "glass, 2.5 away" and "vacuum"
-  // Whether the reference diverges here, what the ray adds, and how it ends.
+  // They say whether the reference diverges here, what the ray adds, and how it ends.
   std::vector<std::string> lines;
 };
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);

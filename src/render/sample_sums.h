@@ -11,8 +11,8 @@ namespace whit {
 struct SampleSum {
   RgbD total;          // sum in the order of the pattern
   double squares = 0;  // sum over the samples of the mean of r^2, g^2 and b^2, linear radiance
-  // The standard error of the mean of `samples` samples, as if they were independent: the root mean
-  // square of those of r, g and b. Infinite for one sample.
+  // Returns the standard error of the mean of `samples` samples, as if they were independent: the
+  // root mean square of those of r, g and b. It is infinite for one sample.
   double standardError(int samples) const;
 };
 

@@ -148,7 +148,7 @@ class Stretched {
   std::vector<Between> columns_, rows_;
 };
 
-// Holds the mean of a channel; see valueAt().
+// Holds the mean of a channel, which valueAt() reads, and whether its pixels differ.
 struct ChannelMean {
   float mean = 0;
   bool varies = false;
@@ -168,6 +168,7 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   return result;
 }
 
+// Returns the mean of the linear colors.
 Rgb meanColor(const RawImage& raw) {
   RgbD sum;
   for (const auto i : indices(raw.pixels())) sum += RgbD(linearPixel(raw, i));

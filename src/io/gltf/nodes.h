@@ -40,7 +40,7 @@ struct GltfPlaced {
   std::uint32_t mover = kNoNode;
 };
 
-// What the nodes of a file place in the scene.
+// Holds everything that the nodes of a file place in the scene.
 struct GltfContent {
   // The nodes that move, a parent before its children. Meshes, cameras and lights refer to their
   // node by index; kNoNode stands for the scene.

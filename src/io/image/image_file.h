@@ -58,7 +58,8 @@ bool holdsRadiance(const std::string& path);
 // channels, alpha is dropped.
 inline Rgb linearPixel(const RawImage& raw, std::size_t i) {
   const std::size_t first = i * static_cast<std::size_t>(raw.channels);
-  const std::size_t green = first + (raw.channels < 3 ? 0 : 1), blue = 2 * green - first;
+  const std::size_t step = raw.channels < 3 ? 0 : 1;  // gray is all three
+  const std::size_t green = first + step, blue = green + step;
   if (raw.linear) return Rgb(raw.values[first], raw.values[green], raw.values[blue]);
 
   const std::array<float, 256>& linear = linearOfCodes();
