@@ -27,22 +27,20 @@ class Accumulating : public testing::TestWithParam<std::string> {
 // The samples are rendered in three ranges, and each range in two bands of columns.
 TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
   const RenderOptions o = noisy(16);
-  const Picture expected = render(scene_, o);
   Renderer renderer(scene_, o);
+  const Picture expected = render(renderer);
   const Camera camera = chooseCamera(scene_, o);
   Film whole = makeFilm(scene_, o);
   SampleSums sums(whole.image.window);
   const int middle = whole.image.width / 3;
 
-  for (const SampleRange& part : {SampleRange{0, 1}, SampleRange{1, 4}, SampleRange{4, 16}}) {
-    for (const auto& [left, right] : {std::pair{0, middle}, std::pair{middle, whole.image.width}}) {
+  for (const SampleRange& part : {SampleRange{0, 1}, {1, 4}, {4, 16}}) {
+    for (const auto& [left, right] : {std::pair{0, middle}, {middle, whole.image.width}}) {
       Film band;
       band.image =
           Image(whole.image.width, whole.image.height, Crop{left, 0, right, whole.image.height});
       renderer.render({.camera = camera, .film = band, .part = part, .sums = &sums});
-      for (int y = 0; y < whole.image.height; ++y) {
-        for (int x = left; x < right; ++x) whole.image.at(x, y) = band.image.at(x, y);
-      }
+      forEachPixel(band.image, [&](int x, int y) { whole.image.at(x, y) = band.image.at(x, y); });
     }
   }
 
@@ -58,46 +56,35 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
 // and the estimated error fall.
 TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
   const RenderOptions o = noisy(64);
-  const Picture best = render(scene_, o);
-
   Renderer renderer(scene_, o);
+  const Picture best = render(renderer);
+
   const Camera camera = chooseCamera(scene_, o);
   Film film = makeFilm(scene_, o);
   SampleSums sums(film.image.window);
   double last = HUGE_VAL, lastSaid = HUGE_VAL;
-  for (const SampleRange& part : {SampleRange{0, 4}, SampleRange{4, 16}, SampleRange{16, 48}}) {
+  for (const SampleRange& part : {SampleRange{0, 4}, {4, 16}, {16, 48}}) {
     renderer.render({.camera = camera, .film = film, .part = part, .sums = &sums});
-    double squares = 0;
-    for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
-      const Rgb d = film.image.pixels[i] - best.image.pixels[i];
-      squares += double{d.x} * double{d.x} + double{d.y} * double{d.y} + double{d.z} * double{d.z};
-    }
-
+    const double rmse = compareImages(film.image, best.image).rmse;
     const double said = sums.relativeError(part.end);
     std::printf("%s: %d samples, RMSE %.5f, said to be within %.5f of the mean radiance\n",
-                GetParam().c_str(), part.end,
-                std::sqrt(squares / (3 * static_cast<double>(film.image.pixels.size()))), said);
+                GetParam().c_str(), part.end, rmse, said);
 
-    EXPECT_LT(squares, last);
+    EXPECT_LT(rmse, last);
     EXPECT_LT(said, lastSaid);
-    last = squares;
+    last = rmse;
     lastSaid = said;
   }
 }
 
 // Frames of different seeds differ by noise alone; without random numbers they are equal.
 TEST_P(Accumulating, SeedsHaveNoiseOfTheirOwn) {
-  const RenderOptions o = noisy(1);
-  Renderer renderer(scene_, o);
-  const Camera camera = chooseCamera(scene_, o);
-
-  Film first = makeFilm(scene_, o), second = first, again = first;
-  renderer.render(camera, first);
+  Renderer renderer(scene_, noisy(1));
+  const Picture first = render(renderer);
   renderer.setSeed(1);
-  renderer.render(camera, second);
+  const Picture second = render(renderer);
   renderer.setSeed(0);
-  renderer.render(camera, again);
-  EXPECT_EQ(firstDifference(first.image, again.image), "");
+  EXPECT_EQ(firstDifference(first, render(renderer)), "");
 
   const bool random = renderer.plan().features.has(Feature::streams);
   EXPECT_EQ(first.image.pixels != second.image.pixels, random);

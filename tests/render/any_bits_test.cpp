@@ -3,6 +3,7 @@
 // its tables nor change the result of another slot.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -16,29 +17,34 @@
 namespace whit::test {
 namespace {
 
+// Makes columns point to memory of its own with the values of their first `count` slots.
+template <typename Columns>
+class OwnColumns {
+ public:
+  OwnColumns(Columns& columns, std::size_t capacity, std::size_t count, FeatureSet features)
+      : store_(capacity, features) {
+    std::vector<const void*> sources;
+    Columns::forEachColumn(columns,
+                           [&](const char*, auto* column, Feature) { sources.push_back(column); });
+
+    columns = *store_;
+    std::size_t next = 0;
+    Columns::forEachColumn(columns, [&](const char*, auto* column, Feature) {
+      const void* const source = sources[next++];
+      if (column && source && count > 0) std::memcpy(column, source, count * sizeof(float));
+    });
+  }
+
+ private:
+  ColumnStore<Columns> store_;
+};
+
 // Holds the columns of a chunk in memory of its own.
 class OwnChunk {
  public:
   OwnChunk(const Chunk& from, std::size_t children)
-      : chunk(from),
-        rays_(from.n, from.frame->features),
-        children_(children, from.frame->features),
-        hits_(from.n, from.frame->features),
-        surfels_(from.n, from.frame->features),
-        unshadowed_(from.n, from.frame->features),
-        shadows_(from.n, from.frame->features),
-        radiance_(from.n, from.frame->features),
-        parentRadiance_(kParents, from.frame->features) {
-    take(from.rays, from.n, *rays_, chunk.rays);
-    take(from.hits, from.n, *hits_, chunk.hits);
-    take(from.surfels, from.n, *surfels_, chunk.surfels);
-    take(from.radiance, from.n, *radiance_, chunk.radiance);
-    take(from.unshadowed, from.n, *unshadowed_, chunk.unshadowed);
-    take(from.shadows, from.shadowCount, *shadows_, chunk.shadows);
-
-    chunk.children = *children_;
+      : chunk(from), children_(chunk.children, children, 0, features_) {
     chunk.childCount = 0;
-    chunk.parentRadiance = *parentRadiance_;
     for (std::size_t i = 0; i < from.n; ++i) chunk.rays.parent[i] %= kParents;
   }
 
@@ -46,36 +52,25 @@ class OwnChunk {
   Chunk chunk;
 
  private:
-  template <typename Columns>
-  static void take(Columns from, std::size_t count, const Columns& own, Columns& to) {
-    to = own;
-    std::vector<const void*> sources;
-    Columns::forEachColumn(from,
-                           [&](const char*, auto* column, Feature) { sources.push_back(column); });
-
-    std::size_t next = 0;
-    Columns::forEachColumn(to, [&](const char*, auto* column, Feature) {
-      const void* const source = sources[next++];
-      if (column && source && count > 0) std::memcpy(column, source, count * sizeof(float));
-    });
-  }
-
-  ColumnStore<RayColumns> rays_, children_;
-  ColumnStore<HitColumns> hits_;
-  ColumnStore<SurfelColumns> surfels_;
-  ColumnStore<UnshadowedColumns> unshadowed_;
-  ColumnStore<ShadowColumns> shadows_;
-  ColumnStore<RadianceColumns> radiance_, parentRadiance_;
+  const FeatureSet features_ = chunk.frame->features;
+  OwnColumns<RayColumns> rays_{chunk.rays, chunk.n, chunk.n, features_}, children_;
+  OwnColumns<HitColumns> hits_{chunk.hits, chunk.n, chunk.n, features_};
+  OwnColumns<SurfelColumns> surfels_{chunk.surfels, chunk.n, chunk.n, features_};
+  OwnColumns<UnshadowedColumns> unshadowed_{chunk.unshadowed, chunk.n, chunk.n, features_};
+  OwnColumns<ShadowColumns> shadows_{chunk.shadows, chunk.n, chunk.shadowCount, features_};
+  OwnColumns<RadianceColumns> radiance_{chunk.radiance, chunk.n, chunk.n, features_};
+  OwnColumns<RadianceColumns> parentRadiance_{chunk.parentRadiance, kParents, 0, features_};
 };
 
 // Draws any bits, often those of numbers that code may not expect.
 class AnyBits {
  public:
   std::uint32_t next() {
-    constexpr float kFloats[] = {std::numeric_limits<float>::quiet_NaN(),
-                                 std::numeric_limits<float>::infinity(),
-                                 -std::numeric_limits<float>::infinity(),
-                                 std::numeric_limits<float>::denorm_min(),
+    using Limits = std::numeric_limits<float>;
+    constexpr float kFloats[] = {Limits::quiet_NaN(),
+                                 Limits::infinity(),
+                                 -Limits::infinity(),
+                                 Limits::denorm_min(),
                                  -1e-40f,
                                  0.0f,
                                  3e38f,
@@ -89,9 +84,7 @@ class AnyBits {
     const std::uint32_t kind = drawn % 20;
     if (kind >= 15) return static_cast<std::uint32_t>(random_());
     if (kind >= 10) return kWords[kind - 10];
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &kFloats[kind], sizeof bits);
-    return bits;
+    return std::bit_cast<std::uint32_t>(kFloats[kind]);
   }
 
  private:

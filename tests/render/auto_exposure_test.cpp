@@ -1,10 +1,7 @@
 // The exposure that --exposure auto chooses for a view.
-#include "render/renderer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/display.h"
@@ -21,107 +18,80 @@ float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
 }
 
 // An emitting plate fills the view.
-Scene glowing(const Rgb& radiance, const Rgb& sky = {}, float side = 10) {
+Scene glowing(float radiance, float sky = 0, float side = 10) {
   verify::SceneBuilder builder;
-  SceneDescription& d = builder.description;
-  Material material = verify::blackMaterial();
-  material.emission = radiance;
   builder.add(verify::quad({-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0},
-                           builder.add(material)));
-  d.cameras.emplace_back();
-  d.sky.kind = Sky::Kind::color;
-  d.sky.zenith = d.sky.horizon = d.sky.ground = sky;
+                           builder.add(verify::emittingMaterial(radiance))));
+  builder.description.cameras.emplace_back();
+  builder.sky(sky);
   return builder.build();
 }
 
+// The exposure makes the mean of the surfaces 0.3, in steps of 1/8 EV. A sky beside a dark surface
+// lowers it, but not without end unless the sky fills the picture; then that must not burn out.
 TEST(AutoExposure, TakesTheMeanOfTheSurfacesToTheMiddle) {
-  // The exposure makes the mean of the surfaces 0.3, in steps of 1/8 EV.
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f))), 0);
-  EXPECT_EQ(exposureOf(glowing(Rgb(1.2f))), -2);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 1024))), 10);
-  EXPECT_EQ(exposureOf(glowing(Rgb(3.0e5f))), std::round(8 * std::log2(1.0e-6f)) / 8);
-}
-
-TEST(AutoExposure, NothingToSeeStaysAsItIs) {
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0f))), 0);
-  EXPECT_EQ(exposureOf(glowing(Rgb(5.0f), Rgb(1.0f), 1.0e-6f)), 0) << "sky only";
-}
-
-// A sky beside a dark surface lowers the exposure, but not without end unless it fills the
-// picture; then it must not burn out.
-TEST(AutoExposure, TheSkyIsHeardToo) {
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.0625f), 1)), 3);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.125f), 1)), 2);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.35f), 1)), 1);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(50.0f), 1)),
-            std::round(8 * std::log2(0.8 / 50)) / 8);
+  struct Case {
+    float radiance, sky, side;
+    double exposure;
+  };
+  for (const Case& c : {Case{0.3f, 0, 10, 0},
+                        {1.2f, 0, 10, -2},
+                        {0.3f / 1024, 0, 10, 10},
+                        {3.0e5f, 0, 10, std::log2(1.0e-6)},
+                        {0, 0, 10, 0},
+                        {5, 1, 1.0e-6f, 0},
+                        {0.0375f, 0.0625f, 1, 3},
+                        {0.0375f, 0.125f, 1, 2},
+                        {0.0375f, 0.35f, 1, 1},
+                        {0.0375f, 50, 1, std::log2(0.8 / 50)}}) {
+    EXPECT_EQ(exposureOf(glowing(c.radiance, c.sky, c.side)), std::round(8 * c.exposure) / 8)
+        << c.radiance << " before " << c.sky;
+  }
 }
 
 TEST(AutoExposure, LevelsAreThoseBehindTheToneCurve) {
   RenderOptions options;
   options.toneCurve = ToneCurve::reinhard;
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 0.7f)), options), 0);  // x / (1 + x) = 0.3
+  EXPECT_EQ(exposureOf(glowing(0.3f / 0.7f), options), 0);  // x / (1 + x) = 0.3
 
   options.toneCurve = ToneCurve::filmic;
-  const float ev = exposureOf(glowing(Rgb(0.1f)), options);
+  const float ev = exposureOf(glowing(0.1f), options);
   EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 0.1 * std::exp2(double{ev})), 0.3, 0.02)
       << "steps of 1/8 EV";
 }
 
-// A closed box around the camera, whose far wall has 32 x 20 emitting fields. One in
+// A closed box around the camera, before whose far wall there are 32 x 20 emitting fields. One in
 // twenty glows `peak` times as bright as the rest, in one channel only.
 Scene closedBox(float peak, bool isModel) {
   constexpr int kColumns = 32, kRows = 20;
-  SceneDescription d;
-  d.isModel = isModel;
-  d.materials.resize(3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    d.materials[i].diffuse = Rgb(0.0f);
-    d.materials[i].emission = Rgb(i == 1 ? 0.4f : 0.2f);
-  }
-  d.materials[2].emission.x = 0.2f * peak;
+  verify::SceneBuilder builder;
+  builder.description.isModel = isModel;
+  for (const float radiance : {0.2f, 0.4f}) builder.add(verify::emittingMaterial(radiance));
+  Material bright = verify::emittingMaterial(0.2f);
+  bright.emission.x *= peak;
+  builder.add(bright);
 
-  Mesh wall;
-  const auto addField = [&](const std::array<Vec3f, 4>& corners, std::uint32_t material) {
-    const auto first = static_cast<std::uint32_t>(wall.positions.size());
-    wall.positions.insert(wall.positions.end(), corners.begin(), corners.end());
-    wall.triangles.push_back({first, first + 1, first + 2});
-    wall.triangles.push_back({first, first + 2, first + 3});
-    wall.materials.insert(wall.materials.end(), 2, material);
-  };
   for (int i = 0; i < kColumns * kRows; ++i) {
     const auto x = static_cast<float>(i % kColumns - kColumns / 2);
     const auto y = static_cast<float>(i / kColumns - kRows / 2);
     const bool isBright = i * 7 % 20 == 0;
-    addField({Vec3f{x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}},
-             isBright ? 2u : static_cast<std::uint32_t>(i & 1));
+    builder.add(verify::quad({x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0},
+                             isBright ? 2u : static_cast<std::uint32_t>(i & 1)));
   }
-  constexpr float kX = 16, kY = 10, kDeep = 50;
-  addField({Vec3f{-kX, -kY, 0}, {kX, -kY, 0}, {kX, -kY, kDeep}, {-kX, -kY, kDeep}}, 0);
-  addField({Vec3f{-kX, kY, 0}, {kX, kY, 0}, {kX, kY, kDeep}, {-kX, kY, kDeep}}, 0);
-  addField({Vec3f{-kX, -kY, 0}, {-kX, kY, 0}, {-kX, kY, kDeep}, {-kX, -kY, kDeep}}, 0);
-  addField({Vec3f{kX, -kY, 0}, {kX, kY, 0}, {kX, kY, kDeep}, {kX, -kY, kDeep}}, 0);
-  addField({Vec3f{-kX, -kY, kDeep}, {kX, -kY, kDeep}, {kX, kY, kDeep}, {-kX, kY, kDeep}}, 0);
-  d.objects.push_back({"box", {wall}});
-  d.instances.push_back({0, Affine{}});
 
-  Camera camera;
-  camera.eye = {0, 0, 20};
-  camera.at = {0, 0, 0};
-  d.cameras = {camera};
-  return test::repaired(std::move(d));
+  builder.add(verify::box({-16, -10, -1}, {16, 10, 50}, 0));
+  builder.lookFrom({0, 0, 20});
+  return builder.build();
 }
 
 // The share of the pixels that have a channel at 255.
 double clippedShare(const Scene& scene, RenderOptions options) {
   options.exposure.automatic = true;
+  options.size = ImageSize{240, 150};
   Renderer renderer(scene, options);
   chooseExposure(renderer, scene.cameras[0], options);
 
-  Film film;
-  film.image = Image(240, 150);
-  film.wantDisplay = true;
-  renderFrame(renderer, options.mode, scene.cameras[0], film);
+  const Film film = test::render(renderer);
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < film.display.rgba.size(); i += 4) {
     const auto* const pixel = &film.display.rgba[i];
@@ -191,7 +161,7 @@ TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {
 }
 
 TEST(AutoExposure, IsSettledOnce) {
-  const Scene scene = glowing(Rgb(1.2f));
+  const Scene scene = glowing(1.2f);
   RenderOptions options;
   setOption(options, "exposure", "auto");
   EXPECT_EQ(optionText(options, "exposure"), "auto");

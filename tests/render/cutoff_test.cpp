@@ -35,15 +35,14 @@ TEST(Cutoff, ClosedRoomsKeepTheirLight) {
   for (const float albedo : {0.5f, 0.8f, 0.9f}) {
     Material wall = diffuseMaterial(albedo);
     wall.emission = Rgb(1 - albedo);
-    const Scene scene = closedRoom(wall);
     RenderOptions o = deepOptions();
     o.indirect = 4;
 
-    const double tail = std::pow(double{albedo}, kDepth + 1);
-    for (const bool packets : {false, true}) {
-      const Image image = render(scene, o, packets).image;
-      // Paths end where they count for less than the cutoff, if that is before the depth does.
-      const double bound = std::max(tail, double{o.cutoff} / (1 - double{albedo})) + 1e-4;
+    // Paths end where they count for less than the cutoff, if that is before the depth does.
+    const double reflected{albedo}, tail = std::pow(reflected, kDepth + 1);
+    const double bound = std::max(tail, double{o.cutoff} / (1 - reflected)) + 1e-4;
+    const auto [packets, reference] = renderBoth(closedRoom(wall), o);
+    for (const Image& image : {packets.image, reference.image}) {
       for (const Rgb& pixel : image.pixels) {
         EXPECT_LE(pixel.x, 1 + 1e-4) << albedo;
         EXPECT_GE(pixel.x, 1 - bound) << albedo;
@@ -63,22 +62,21 @@ TEST(Cutoff, WhiteRoomsKeepTheirLightWithOneRayABounce) {
       wall.emission = Rgb(1.0f / (kDepth + 1));
       wall.specular = Rgb(specular);
       wall.roughness = roughness;
-      const Scene scene = closedRoom(wall);
       RenderOptions o = deepOptions();
       o.glossy = o.indirect = kSamples;
 
-      for (const bool packets : {false, true}) {
-        const Picture picture = render(scene, o, packets);
+      const auto [packets, reference] = renderBoth(closedRoom(wall), o);
+      for (const Picture& picture : {packets, reference}) {
         // Rounding adds up over the bounces of a path, to less than an ulp of 1 at each.
         constexpr double kRounding = kDepth * 0x1p-23;
         // A sample of weight below the cutoff at the first surface takes its light along.
         const double bound = kRounding + 2 * kSamples * double{o.cutoff};
         for (const Rgb& pixel : picture.image.pixels) {
-          EXPECT_NEAR(pixel.x, 1, bound) << specular << ' ' << roughness << packets;
+          EXPECT_NEAR(pixel.x, 1, bound) << specular << ' ' << roughness;
         }
         // The samples of both lobes of the first surface go on as one ray a bounce.
         const std::size_t most = picture.image.pixels.size() * (1 + 2 * kSamples * kDepth);
-        EXPECT_LE(picture.stats.allRays(), most) << specular << ' ' << roughness << packets;
+        EXPECT_LE(picture.stats.allRays(), most) << specular << ' ' << roughness;
       }
     }
   }
@@ -93,15 +91,12 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   m.transmission = Rgb(0.5f, 0, 0);
   m.ior = 2.5f;
   builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
-  builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
+  builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
   builder.lookFrom({0.5f, 0.7f, 3});
-
-  const Scene scene = builder.build();
 
   RenderOptions o = smallOptions();
   o.size = ImageSize{16, 12};
-  const auto [packets, reference] = renderBoth(scene, o);
-
+  const auto [packets, reference] = renderBoth(builder.build(), o);
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
   }
@@ -122,22 +117,20 @@ TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
     builder.add(box({-500, y, -500}, {500, y + 0.5f, 500}, material));
   }
   builder.lookFrom({0, 4.75, 0}, {1, 0, 0});
-  const Scene scene = builder.build();
 
   RenderOptions o = smallOptions();
   o.size = ImageSize{4, 4};
   o.depth = 16;
   o.cutoff = 1e-2f;
 
-  const auto [packets, reference] = renderBoth(scene, o);
-  // As many paths as cutoffs go into 1, each with a ray a depth.
+  const auto [packets, reference] = renderBoth(builder.build(), o);
+  const std::uint64_t rays = packets.stats.allRays();
 
+  // As many paths as cutoffs go into 1, each with a ray a depth.
   const double bound = 16 * o.depth / static_cast<double>(o.cutoff);
-  std::printf("%llu rays of 16 pixels (at most %.0f)\n",
-              static_cast<unsigned long long>(packets.stats.allRays()), bound);
-  EXPECT_GT(packets.stats.allRays(), 16u * 16u) << "they do branch";
-  EXPECT_LE(static_cast<double>(packets.stats.allRays()), bound);
-  EXPECT_EQ(packets.stats.allRays(), reference.stats.allRays());
+  EXPECT_GT(rays, 16u * 16u) << "they do branch";
+  EXPECT_LE(static_cast<double>(rays), bound);
+  EXPECT_EQ(rays, reference.stats.allRays());
 }
 
 }  // namespace

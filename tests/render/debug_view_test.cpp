@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "core/display.h"
 #include "inspect/metrics.h"
@@ -15,21 +14,16 @@ namespace {
 using Code = std::array<int, 3>;
 
 // A wall at z = 0 of the color (0.5, 0.25, 0.1) fills the view from z = 5; there is one light.
-Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
+SceneDescription wall() {
   SceneDescription d;
-  d.name = "wall";
   d.materials.resize(1);
   d.materials[0].diffuse = {0.5f, 0.25f, 0.1f};
-  d.lights.resize(1);
-  d.lights[0].position = {0, 0, 4};
-
+  d.lights = {verify::lightAt({0, 0, 4}, 1)};
   d.objects.push_back(
       {"wall", {verify::quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}, 0)}});
   d.instances.push_back({0, Affine{}});
   d.cameras.resize(1);  // at z = 5, looking along -z
-
-  if (change) change(d);
-  return repaired(std::move(d));
+  return d;
 }
 
 struct Viewed {
@@ -41,7 +35,9 @@ struct Viewed {
   }
 };
 
-Viewed view(const Scene& scene, DebugView what, const RenderOptions& options = smallOptions()) {
+Viewed view(const SceneDescription& description, DebugView what,
+            const RenderOptions& options = smallOptions()) {
+  const Scene scene = repaired(description);
   Renderer renderer(scene, options);
   Viewed viewed{{}, makeFilm(scene, options)};
   viewed.frame = renderDebugView(renderer, chooseCamera(scene, options), viewed.film, what);
@@ -50,11 +46,8 @@ Viewed view(const Scene& scene, DebugView what, const RenderOptions& options = s
 
 // Every pixel has the same code.
 void expectAll(const Viewed& viewed, const Code& code) {
-  for (int y = 0; y < viewed.film.display.height; ++y) {
-    for (int x = 0; x < viewed.film.display.width; ++x) {
-      ASSERT_EQ(viewed.code(x, y), code) << x << ',' << y;
-    }
-  }
+  forEachPixel(viewed.film.image,
+               [&](int x, int y) { ASSERT_EQ(viewed.code(x, y), code) << x << ',' << y; });
 }
 
 TEST(DebugView, NormalsOfAWallFaceTheViewer) {
@@ -72,30 +65,27 @@ TEST(DebugView, DepthBeginsWhereTheWallIsNearest) {
             viewed.code(0, 0)[0]);  // the middle is nearer
 
   // A camera that looks away from the wall sees nothing.
-  expectAll(view(wall([](SceneDescription& d) {
-                   d.cameras[0].at = {0, 0, 10};
-                 }),
-                 DebugView::depth),
-            {0, 0, 0});
+  SceneDescription away = wall();
+  away.cameras[0].at = {0, 0, 10};
+  expectAll(view(away, DebugView::depth), {0, 0, 0});
 }
 
 TEST(DebugView, CountsRays) {
-  // Every pixel has a primary ray and a shadow ray.
-  EXPECT_EQ(view(wall(), DebugView::rays).frame.legend, "rays a pixel and sample, from 2 to 2");
-
-  const auto dark = [](SceneDescription& d) { d.lights.clear(); };
-  EXPECT_EQ(view(wall(dark), DebugView::rays).frame.legend, "rays a pixel and sample, from 1 to 1");
-
-  // In the dark, the ray that a mirror reflects leaves the scene.
-  const auto mirror = [&](SceneDescription& d) {
-    dark(d);
-    d.materials[0].mirror = d.materials[0].mirrorGrazing = {1, 1, 1};
+  const auto legendOf = [](const SceneDescription& description, int spp = 1) {
+    RenderOptions o = smallOptions();
+    o.spp = spp;
+    return view(description, DebugView::rays, o).frame.legend;
   };
 
-  RenderOptions several = smallOptions();
-  several.spp = 4;
-  EXPECT_EQ(view(wall(mirror), DebugView::rays, several).frame.legend,
-            "rays a pixel and sample, from 2 to 2");
+  // Every pixel has a primary ray and a shadow ray.
+  SceneDescription d = wall();
+  EXPECT_EQ(legendOf(d), "rays a pixel and sample, from 2 to 2");
+  d.lights.clear();
+  EXPECT_EQ(legendOf(d), "rays a pixel and sample, from 1 to 1");
+
+  // In the dark, the ray that a mirror reflects leaves the scene.
+  d.materials[0].mirror = d.materials[0].mirrorGrazing = {1, 1, 1};
+  EXPECT_EQ(legendOf(d, 4), "rays a pixel and sample, from 2 to 2");
 }
 
 TEST(DebugView, FullPacketsAreBright) {
@@ -115,11 +105,9 @@ TEST(DebugView, FullPacketsAreBright) {
 TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
   RenderOptions options = smallOptions();
   options.size = {5, 3};
-  const Scene scene = wall();
+  const Scene scene = repaired(wall());
   Renderer renderer(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  Film film = makeFilm(scene, options);
-  renderer.render(camera, film);
+  Film film = render(renderer);
 
   std::optional<Film> reference = film;
   const auto change = [&](std::size_t pixel, int codes) {
@@ -132,7 +120,7 @@ TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
   reference->image.pixels[1].y += 0.25f;
 
   DebugPicture picture;
-  watchReference(renderer, camera, film, DebugView::difference, reference, picture, {});
+  watchReference(renderer, scene.cameras[0], film, DebugView::difference, reference, picture, {});
   EXPECT_EQ(picture.largest, 41);
   EXPECT_DOUBLE_EQ(picture.mean, 3);  // 45 / 15
   EXPECT_EQ(picture.legend(),
@@ -150,10 +138,10 @@ TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
 }
 
 TEST(DebugView, ThePictureItselfIsAsEver) {
-  const Scene scene = load("whitted");
+  const Picture picture = render(load("whitted"), smallOptions());
   for (const DebugView what : {DebugView::rays, DebugView::cost, DebugView::occupancy}) {
-    const Viewed viewed = view(scene, what);
-    EXPECT_EQ(firstDifference(viewed.film.image, render(scene, smallOptions()).image), "");
+    const Viewed viewed = view(described("whitted"), what);
+    EXPECT_EQ(firstDifference(viewed.film.image, picture.image), "");
     EXPECT_GT(viewed.frame.stats.frameMs, 0);
   }
 }

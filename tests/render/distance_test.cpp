@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "inspect/reference_frame.h"
 #include "oracle/bilinear.h"
 #include "pi.h"
 #include "reference/small_scenes.h"
@@ -28,7 +27,7 @@ std::int32_t add(SceneBuilder& builder, const Pattern& pattern, TexelFormat form
   for (int y = 0; y < kTexelsAcross; ++y) {
     for (int x = 0; x < kTexelsAcross; ++x) {
       const oracle::Color c = pattern(x, y);
-      const Rgb value{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+      const Rgb value(Vec3d{c.x, c.y, c.z});
       texels.push_back(format == TexelFormat::data ? encodeDataTexel(value.x, value.y, value.z, 1)
                                                    : encodeColorTexel(value));
     }
@@ -74,8 +73,11 @@ oracle::Color at(const Pattern& pattern, double x, double y) {
   });
 }
 
+// A value at a point of the texture, in texels.
+using Value = std::function<double(double x, double y)>;
+
 // Returns the mean over the texture.
-double integral(const std::function<double(double x, double y)>& value) {
+double integral(const Value& value) {
   double sum = 0;
   const double step = 1.0 / kPoints;
   for (int j = 0; j < kTexelsAcross * kPoints; ++j) {
@@ -87,46 +89,37 @@ double integral(const std::function<double(double x, double y)>& value) {
 
 // Returns the mean green of a picture from above. The step from pixel to pixel and the period of
 // the texture are incommensurable, so that all points of the texture are seen alike.
-double meanSeen(SceneDescription description, double texelsPerPixel, bool byReference) {
+double meanSeen(Scene& scene, double texelsPerPixel, bool packets) {
   constexpr double kUneven = 1.0137;
-  Camera camera;
-  camera.eye = {0.37f, 10, 0.21f};
-  camera.at = {0.37f, 0, 0.21f};
-  camera.up = {0.23f, 0, -1};
-  camera.orthographicHeight = static_cast<float>(texelsPerPixel * kUneven * kPixels);
-  description.cameras = {camera};
-
-  Warnings strict(true);
-  const Scene scene = Scene::finalize(std::move(description), strict);
+  scene.cameras[0].orthographicHeight = static_cast<float>(texelsPerPixel * kUneven * kPixels);
   RenderOptions o = smallOptions();
   o.size = ImageSize{kPixels, kPixels};
 
-  const Picture film = render(scene, o, !byReference);
-
+  const Image image = render(scene, o, packets).image;
   double sum = 0;
-  for (const Rgb& pixel : film.image.pixels) sum += double{pixel.y};
-  return sum / static_cast<double>(film.image.pixels.size());
+  for (const Rgb& pixel : image.pixels) sum += double{pixel.y};
+  return sum / static_cast<double>(image.pixels.size());
 }
 
-// The floor has one texel a unit.
-SceneDescription floorOf(SceneBuilder& builder, const Material& material) {
+// The floor has one texel a unit and the material. It sends the mean of `value`.
+void expectTheSameFromAfar(const std::string& what, SceneBuilder& builder, const Material& material,
+                           double bound, const Value& value) {
   constexpr float kHalf = 40 * kTexelsAcross;
   Mesh floor = floorAt(0, kHalf, builder.add(material));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 80, uv.y * 80};
   builder.add(std::move(floor));
-  return builder.describe();
-}
+  builder.lookFrom({0.37f, 10, 0.21f}, {0.37f, 0, 0.21f}).up = {0.23f, 0, -1};
+  Scene scene = builder.build();
 
-void expectTheSameFromAfar(const char* what, const SceneDescription& description, double wanted,
-                           double bound) {
-  std::printf("%s, %.4f wanted:", what, wanted);
+  const double wanted = integral(value);
+  std::printf("%s, %.4f wanted:", what.c_str(), wanted);
   for (const double texels : {1, 2, 4, 8, 16, 32}) {
-    const double seen = meanSeen(description, texels, false);
+    const double seen = meanSeen(scene, texels, true);
     std::printf(" %.4f", seen);
     EXPECT_NEAR(seen, wanted, bound * wanted) << what << " at " << texels << " texels a pixel";
     if (texels == 4 || texels == 32) {
-      const double reference = meanSeen(description, texels, true);
-      EXPECT_NEAR(reference, wanted, bound * wanted) << what << ", reference, " << texels;
+      EXPECT_NEAR(meanSeen(scene, texels, false), wanted, bound * wanted)
+          << what << ", reference, " << texels;
     }
   }
   std::printf("\n");
@@ -154,40 +147,33 @@ TEST(Distance, ColorsKeepTheirMean) {
   Material m = emittingMaterial(1);
   const Pattern color = leavesOn({0, 0.02, 0});
   m.emissionMap = add(builder, color, TexelFormat::color);
-  expectTheSameFromAfar("color", floorOf(builder, m),
-                        integral([&](double x, double y) { return at(color, x, y).y; }), kSampled);
+  expectTheSameFromAfar("color", builder, m, kSampled,
+                        [&](double x, double y) { return at(color, x, y).y; });
 }
 
+const oracle::Color kGreen{0, 0.5, 0}, kBlack;
+
 TEST(Distance, MasksKeepTheirArea) {
-  const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
-  for (const auto& kind : {std::pair("mask on green", green), std::pair("mask on black", black)}) {
-    const auto& what = kind.first;
-    const Pattern& color = kind.second;
+  for (const oracle::Color& clear : {kGreen, kBlack}) {
+    const Pattern color = leavesOn(clear);
     Leaves leaves(color, opacity);
-    expectTheSameFromAfar(what, floorOf(leaves.builder, leaves.material),
-                          integral([&](double x, double y) {
-                            return at(opacity, x, y).x >= 0.5 ? at(color, x, y).y : 0;
-                          }),
-                          kEdges);
+    expectTheSameFromAfar("mask", leaves.builder, leaves.material, kEdges, [&](double x, double y) {
+      return at(opacity, x, y).x >= 0.5 ? at(color, x, y).y : 0;
+    });
   }
 }
 
 // The alpha covers as in glTF's BLEND and as the coverageMap of a scene file.
 TEST(Distance, CoverageCountsOnce) {
-  const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
   for (const auto& alpha : {opacity, softOpacity}) {
-    for (const auto& kind :
-         {std::pair("blend on green", green), std::pair("blend on black", black)}) {
-      const auto& what = kind.first;
-      const Pattern& color = kind.second;
+    for (const oracle::Color& clear : {kGreen, kBlack}) {
+      const Pattern color = leavesOn(clear);
       Leaves leaves(color, alpha);
-
       leaves.material.coverageMap = leaves.material.alphaMap;
       leaves.material.passClearTexels();
       expectTheSameFromAfar(
-          what, floorOf(leaves.builder, leaves.material),
-          integral([&](double x, double y) { return at(alpha, x, y).x * at(color, x, y).y; }),
-          kEdges);
+          "blend", leaves.builder, leaves.material, kEdges,
+          [&](double x, double y) { return at(alpha, x, y).x * at(color, x, y).y; });
     }
   }
 }
@@ -199,12 +185,11 @@ TEST(Distance, MasksAndCoverageTogether) {
   };
   Leaves leaves(color, opacity);
   leaves.material.coverageMap = add(leaves.builder, covers, TexelFormat::data);
-  expectTheSameFromAfar("mask and coverage", floorOf(leaves.builder, leaves.material),
-                        integral([&](double x, double y) {
+  expectTheSameFromAfar("mask and coverage", leaves.builder, leaves.material, kEdges,
+                        [&](double x, double y) {
                           if (at(opacity, x, y).x < 0.5) return 0.0;
                           return at(covers, x, y).x * at(color, x, y).y;
-                        }),
-                        kEdges);
+                        });
 }
 
 // One texture is on an opaque floor and, masked, in the same scene.
@@ -215,34 +200,31 @@ TEST(Distance, ATextureMayBeShownInSeveralWays) {
   opaque.alphaMap = kNoTexture;
   // This material has no surface.
   leaves.builder.add(leaves.material);
-  expectTheSameFromAfar("opaque beside a mask", floorOf(leaves.builder, opaque),
-                        integral([&](double x, double y) { return at(color, x, y).y; }), kSampled);
+  expectTheSameFromAfar("opaque beside a mask", leaves.builder, opaque, kSampled,
+                        [&](double x, double y) { return at(color, x, y).y; });
 }
 
 oracle::Color bumps(int x, int y) {
   return {0.4 + 0.2 * noise(x, y, 0), 0.4 + 0.2 * noise(x, y, 1), 1};
 }
 
-Light slantedSun() { return sun({-1, -1, -0.3f}, 1); }
-
-oracle::Vec towardsSun() { return normalized(oracle::Vec{1, 1, 0.3}); }
+const Light kSlantedSun = sun({-1, -1, -0.3f}, 1);
+const oracle::Vec kTowardsSun = normalized(oracle::Vec{1, 1, 0.3});
 
 // The mean of normals is shorter than one and is normalized again, so distant bumps are a little
 // brighter: by 1 / length of the mean, 1.3 % for these bumps, which lean by up to 15 degrees.
 TEST(Distance, NormalMapsKeepDiffuseLight) {
   SceneBuilder builder;
-  builder.description.lights = {slantedSun()};
+  builder.description.lights = {kSlantedSun};
   Material m = diffuseMaterial(1);
   m.normalMap = add(builder, bumps, TexelFormat::data);
 
-  const auto diffuse = [&](double x, double y) {
+  expectTheSameFromAfar("normals", builder, m, 0.02, [&](double x, double y) {
     const oracle::Color c = at(bumps, x, y);
     // u runs along x, v, which is the map's y, against z.
     const oracle::Vec n = normalized(oracle::Vec{2 * c.x - 1, 2 * c.z - 1, 1 - 2 * c.y});
-    return std::max(0.0, dot(n, towardsSun())) / kPi;
-  };
-
-  expectTheSameFromAfar("normals", floorOf(builder, m), integral(diffuse), 0.02);
+    return std::max(0.0, dot(n, kTowardsSun)) / kPi;
+  });
 }
 
 oracle::Color roughness(int x, int y) { return oracle::gray(0.5 + 0.5 * noise(x / 3, y / 3, 2)); }
@@ -260,18 +242,16 @@ double ggx(double alpha, double cosine) {
 // highlight of distant texels is 12 % brighter.
 TEST(Distance, RoughnessKeepsTheHighlight) {
   SceneBuilder builder;
-  builder.description.lights = {slantedSun()};
+  builder.description.lights = {kSlantedSun};
   Material m = blackMaterial();
   m.specular = Rgb(1.0f);
   m.roughness = 0.8f;
   m.roughnessMap = add(builder, roughness, TexelFormat::data);
 
-  const auto highlight = [&](double x, double y) {
+  expectTheSameFromAfar("roughness", builder, m, 0.13, [&](double x, double y) {
     const double r = 0.8 * at(roughness, x, y).y;
-    return ggx(r * r, towardsSun().y);
-  };
-
-  expectTheSameFromAfar("roughness", floorOf(builder, m), integral(highlight), 0.13);
+    return ggx(r * r, kTowardsSun.y);
+  });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "make/studio_sky.h"
 #include "shipped_scene.h"
+#include "unit/scene_builder.h"
 
 namespace whit::test {
 namespace {
@@ -23,49 +24,40 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   const Scene read = repaired(std::move(description));
 
   Renderer renderer(edited, options);
-  Film film = makeFilm(edited, options);
-  const Camera camera = chooseCamera(edited, options);
-  renderer.render(camera, film);
+  const Picture before = render(renderer);
 
-  const Image before = film.image;
   std::vector<Material> materials = edited.materials;
   std::vector<Light> lights = edited.lights;
   edit(materials, lights);
   editShading(edited, materials, lights);
   renderer.shadingChanged();
-  renderer.render(camera, film);
+  const Picture after = render(renderer);
 
-  EXPECT_NE(firstDifference(before, film.image), "") << "the edit changes nothing";
-  EXPECT_EQ(firstDifference(render(read, options).image, film.image), "");
+  EXPECT_NE(firstDifference(before, after), "") << "the edit changes nothing";
+  EXPECT_EQ(firstDifference(render(read, options), after), "");
   EXPECT_EQ(edited.effects, read.effects);
   for (std::size_t i = 0; i < kEffectCount; ++i) {
     EXPECT_EQ(edited.reasons[i].because, read.reasons[i].because);
   }
 }
 
-TEST(EditShading, Colors) {
+TEST(EditShading, ColorsAndLights) {
   expectAsIfRead("whitted", [](auto& materials, auto&) {
     for (Material& m : materials) m.diffuse = {0.1f, 0.7f, 0.3f};
   });
-}
-
-TEST(EditShading, LightsMoveAndDim) {
   expectAsIfRead("whitted", [](auto&, auto& lights) {
     lights[0].position.x += 1.5f;
-    lights[0].intensity = lights[0].intensity * 0.25f;
+    lights[0].intensity *= 0.25f;
   });
 }
 
-TEST(EditShading, EffectsGo) {
+TEST(EditShading, EffectsComeAndGo) {
   expectAsIfRead("whitted", [](auto& materials, auto&) {
     for (Material& m : materials) m.mirror = m.mirrorGrazing = m.transmission = {0, 0, 0};
   });
   expectAsIfRead("matte", [](auto&, auto& lights) {
     for (Light& light : lights) light.intensity = {0, 0, 0};
   });
-}
-
-TEST(EditShading, EffectsCome) {
   expectAsIfRead("matte", [](auto& materials, auto&) {
     for (Material& m : materials) {
       m.mirror = m.mirrorGrazing = {0.5f, 0.5f, 0.4f};
@@ -82,9 +74,6 @@ TEST(EditShading, Dielectrics) {
       m.ior += 0.2f;
       m.absorption = {0.5f, 0.1f, 0};
     }
-  });
-  expectAsIfRead("whitted", [](auto& materials, auto&) {
-    for (Material& m : materials) m.transmission = {0, 0, 0};
   });
 }
 
@@ -114,23 +103,18 @@ TEST(EditShading, SkiesAreExchanged) {
 
     Scene edited = load("whitted");
     Renderer renderer(edited, options);
-    Film film = makeFilm(edited, options);
-    const Camera camera = chooseCamera(edited, options);
-    renderer.render(camera, film);
-    const Image before = film.image;
+    const Picture before = render(renderer);
 
     const Ambient ambient = edited.ambient;
     Sky sky = other;
     editSky(edited, sky, ambientFromSky(other, 0.5));
     renderer.shadingChanged();
-    renderer.render(camera, film);
-    EXPECT_EQ(firstDifference(render(read, options).image, film.image), "");
+    EXPECT_EQ(firstDifference(render(read, options), render(renderer)), "");
     EXPECT_EQ(edited.effects, read.effects);
 
     editSky(edited, sky, ambient);
     renderer.shadingChanged();
-    renderer.render(camera, film);
-    EXPECT_EQ(firstDifference(before, film.image), "");
+    EXPECT_EQ(firstDifference(before, render(renderer)), "");
   }
 }
 
@@ -146,25 +130,19 @@ TEST(EditShading, SkiesThatCannotBeAreRefused) {
 
 TEST(EditShading, WhatCannotBeIsRefused) {
   Scene scene = load("whitted");
-  const auto statusOf = [&](const Edit& edit) {
+  const auto expectRefused = [&](ExitStatus status, const Edit& edit) {
     std::vector<Material> materials = scene.materials;
     std::vector<Light> lights = scene.lights;
     edit(materials, lights);
-    try {
-      editShading(scene, materials, lights);
-    } catch (const Error& error) {
-      return error.status();
-    }
-    return ExitStatus::done;
+    expectError(status, {}, [&] { editShading(scene, materials, lights); });
   };
 
   const Vec3f position = scene.lights[0].position;
-  EXPECT_EQ(statusOf([](auto&, auto& lights) { lights[0].position.y = std::nanf(""); }),
-            ExitStatus::badScene);
+  expectRefused(ExitStatus::badScene,
+                [](auto&, auto& lights) { lights[0].position.y = std::nanf(""); });
   EXPECT_EQ(scene.lights[0].position, position);
-  EXPECT_EQ(statusOf([](auto& materials, auto&) { materials.pop_back(); }), ExitStatus::usage);
-  EXPECT_EQ(statusOf([](auto& materials, auto&) { materials[0].roughness = 2; }),
-            ExitStatus::badScene);
+  expectRefused(ExitStatus::usage, [](auto& materials, auto&) { materials.pop_back(); });
+  expectRefused(ExitStatus::badScene, [](auto& materials, auto&) { materials[0].roughness = 2; });
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "make/leave_out.h"
-#include "render/shipped_scene.h"
+#include "render/pipeline_laws.h"
 
 namespace whit::test {
 namespace {
@@ -17,31 +17,27 @@ Scene loadWithout(EffectSet effects) {
 
 // Adds the effects that cannot exist without `effect`.
 EffectSet withDependents(Effect effect) {
-  const EffectSet set = EffectSet().with(effect);
-
   switch (effect) {
     case Effect::lights:
-      return set.with(Effect::shadows)
-          .with(Effect::softShadows)
-          .with(Effect::spotLights)
-          .with(Effect::directionalLights);
+      return {effect, Effect::shadows, Effect::softShadows, Effect::spotLights,
+              Effect::directionalLights};
     case Effect::shadows:
-      return set.with(Effect::softShadows);
+      return {effect, Effect::softShadows};
     case Effect::textures:
     case Effect::emission:
-      return set.with(Effect::emissionMaps);
+      return {effect, Effect::emissionMaps};
     case Effect::sky:
-      return set.with(Effect::skyImage).with(Effect::blurredSky);
+      return {effect, Effect::skyImage, Effect::blurredSky};
     case Effect::transmission:
-      return set.with(Effect::absorption).with(Effect::coverage);
+      return {effect, Effect::absorption, Effect::coverage};
     case Effect::glossy:
-      return set.with(Effect::glossyReflection).with(Effect::blurredSky);
+      return {effect, Effect::glossyReflection, Effect::blurredSky};
     case Effect::glossyReflection:
-      return set.with(Effect::blurredSky);
+      return {effect, Effect::blurredSky};
     case Effect::ambient:
-      return set.with(Effect::ambientOcclusion);
+      return {effect, Effect::ambientOcclusion};
     default:
-      return set;
+      return {effect};
   }
 }
 
@@ -57,46 +53,64 @@ RenderOptions glossyOptions() {
 
 class AbsentEffect : public testing::TestWithParam<int> {
  protected:
-  Effect effect() const { return static_cast<Effect>(GetParam()); }
+  const Effect effect_ = static_cast<Effect>(GetParam());
+  const EffectSet absent_ = withDependents(effect_);
 };
 
 TEST_P(AbsentEffect, IsWhatTheSceneNoLongerCallsFor) {
-  static const EffectSet kOfAll = loadWithout(EffectSet()).effects;
-  EXPECT_EQ(kOfAll, EffectSet::all());
-  EXPECT_EQ(loadWithout(withDependents(effect())).effects,
-            EffectSet::all().without(withDependents(effect())));
+  EXPECT_EQ(loadWithout(absent_).effects, EffectSet::all().without(absent_));
+}
+
+// Fog hides the sky, and samples of lobes stand in place of the blurred sky.
+TEST_P(AbsentEffect, LeavesAnotherPicture) {
+  const Scene scene = loadWithout(effect_ == Effect::fog ? EffectSet() : EffectSet{Effect::fog});
+  RenderOptions o = effect_ == Effect::blurredSky ? smallOptions() : glossyOptions();
+  if (effect_ == Effect::depthOfField) {
+    o.camera = "lens";
+    o.spp = 2;
+  }
+  const Picture with = render(scene, o);
+  o.disable = {effect_};
+  EXPECT_NE(firstDifference(render(scene, o), with), "");
 }
 
 TEST_P(AbsentEffect, CompiledInAllTheSameGivesTheSameBits) {
-  const Scene scene = loadWithout(withDependents(effect()));
+  const Scene scene = loadWithout(absent_);
   RenderOptions o = glossyOptions();
-  const Image plain = render(scene, o).image;
+  const Picture plain = render(scene, o);
   o.effects = EffectChoice::all;
-  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+  EXPECT_EQ(firstDifference(render(scene, o), plain), "");
 
-  o.disable = withDependents(effect()).without(EffectSet().with(effect()));
-  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "") << "this one alone";
+  o.disable = absent_.without(effect_);
+  EXPECT_EQ(firstDifference(render(scene, o), plain), "") << "this one alone";
 }
 
 TEST_P(AbsentEffect, OnTopOfTheMatteSceneGivesTheSameBits) {
-  const EffectSet matte = kMatteEffects.without(withDependents(effect()));
+  const EffectSet matte = kMatteEffects.without(absent_);
   const Scene scene = loadWithout(EffectSet::all().without(matte));
   ASSERT_EQ(scene.effects, matte);
 
   RenderOptions o = glossyOptions();
-  const Image plain = render(scene, o).image;
+  const Picture plain = render(scene, o);
   o.effects = EffectChoice::all;
-  o.disable = EffectSet::all().without(matte.with(effect()));
-  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+  o.disable = EffectSet::all().without(matte.with(effect_));
+  EXPECT_EQ(firstDifference(render(scene, o), plain), "");
 }
 
 // Rays, kernel calls and memory of a frame.
 struct Cost {
   FrameStats stats;
   BufferBytes buffers;
-  std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
-  bool skyImage = false, coplanar = false, coverage = false;
-  bool mirrorMaps = false, transmissionMaps = false, occlusionMaps = false;
+  FeatureSet features;
+  std::size_t texels = 0, instances = 0, lights = 0;
+  bool skyImage = false;
+
+  // The bytes of columns with these features for as many slots as a queue has.
+  template <typename Columns>
+  std::size_t bytesOf() const {
+    const int tile = RenderOptions().tile;
+    return ColumnStore<Columns>(2 * cellsOf(tile, tile), features).bytes();
+  }
 };
 
 Cost costWithout(EffectSet effects) {
@@ -105,140 +119,141 @@ Cost costWithout(EffectSet effects) {
   o.threads = 1;
   o.depth = 1;
   Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
 
   Cost cost;
-  cost.stats = renderer.render(chooseCamera(scene, o), film);
+  cost.stats = render(renderer).stats;
   cost.buffers = renderer.scheduler().tracers().at(0)->bufferBytes();
-  cost.capacity = static_cast<std::size_t>(2 * o.tile * o.tile);
+  cost.features = renderer.plan().features;
   // A texture of one texel stands for one that is left out.
   for (const TextureRecord& t : renderer.tables().textures) {
-    cost.texels += static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height) - 1;
+    cost.texels += cellsOf(t.width, t.height) - 1;
   }
 
   cost.instances = renderer.tables().instances.size();
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
-  cost.coplanar = !scene.coplanar.empty();
-  cost.coverage = scene.effects.has(Effect::coverage);
-  cost.mirrorMaps = renderer.plan().features.has(Feature::mirrorMaps);
-  cost.transmissionMaps = renderer.plan().features.has(Feature::transmissionMaps);
-  cost.occlusionMaps = renderer.plan().features.has(Feature::occlusionMaps);
   return cost;
 }
 
-std::uint64_t callsOf(const Cost& cost, Stage stage) { return cost.stats.callsOf(stage); }
+// Names the rays, stages, kernels and buffers, in this order, that a frame no longer has.
+std::string goneWith(const Cost& all, const Cost& cost) {
+  std::string gone;
+  const auto compare = [&](std::string_view name, std::uint64_t before, std::uint64_t now) {
+    if (before > 0 && now == 0) gone += std::string(name) + " ";
+  };
 
-template <typename Columns>
-std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool instances) {
-  const FeatureSet features = FeatureSet()
-                                  .with(Feature::emissionFactors)
-                                  .with(Feature::cones)
-                                  .with(Feature::streams)
-                                  .with(Feature::coplanar, cost.coplanar)
-                                  .with(Feature::glossy, glossy)
-                                  .with(Feature::lobes, glossy)
-                                  .with(Feature::transmission, transmission)
-                                  .with(Feature::coverage, cost.coverage)
-                                  .with(Feature::mirrorMaps, cost.mirrorMaps)
-                                  .with(Feature::transmissionMaps, cost.transmissionMaps)
-                                  .with(Feature::occlusionMaps, cost.occlusionMaps)
-                                  .with(Feature::instances, instances);
-  return ColumnStore<Columns>(cost.capacity, features).bytes();
+  for (const RayKindRow& row : kRayKinds) {
+    compare(row.name, all.stats.of(row.kind).rays, cost.stats.of(row.kind).rays);
+  }
+  gone += "| ";
+  for (const std::size_t i : indices(kStageCount)) {
+    compare(kStageNames[i], all.stats.stageCalls[i], cost.stats.stageCalls[i]);
+  }
+  gone += "| ";
+  for (const simd::Kernel& kernel : simd::kKernels) {
+    compare(kernel.name, all.stats.callsOf(kernel), cost.stats.callsOf(kernel));
+  }
+  gone += "| ";
+  compare("unshadowed", all.buffers.unshadowed, cost.buffers.unshadowed);
+  compare("shadows", all.buffers.shadows, cost.buffers.shadows);
+  return gone;
 }
 
-TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
-  const Cost cost = costWithout(EffectSet());
+TEST(AbsentEffects, WithAllOfThemEveryRayStageAndBufferIsThere) {
+  const Cost cost = costWithout({});
   for (const RayTally& tally : cost.stats.meter.tally) EXPECT_GT(tally.rays, 0u);
   for (const std::uint64_t calls : cost.stats.stageCalls) EXPECT_GT(calls, 0u);
 
-  EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
-  EXPECT_GT(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
-  EXPECT_GT(cost.stats.callsOf(simd::kAddRefractions), 0u);
-  EXPECT_GT(cost.stats.callsOf(simd::kAddIndirect), 0u);
-
-  EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
-  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
-  EXPECT_EQ(cost.buffers.unshadowed, columnBytes<UnshadowedColumns>(cost, true, true, true));
-  EXPECT_EQ(cost.buffers.shadows, columnBytes<ShadowColumns>(cost, true, true, true));
+  EXPECT_EQ(cost.buffers.unshadowed, cost.bytesOf<UnshadowedColumns>());
+  EXPECT_EQ(cost.buffers.shadows, cost.bytesOf<ShadowColumns>());
+  // Options ask for these, and no effect does.
+  for (const Feature feature : {Feature::ended, Feature::alpha, Feature::shadowOffset}) {
+    EXPECT_FALSE(cost.features.has(feature));
+  }
   EXPECT_GT(cost.texels, 1000u);
   EXPECT_GT(cost.instances, 1u);
   EXPECT_TRUE(cost.skyImage);
 }
 
-TEST(AbsentEffects, WithoutLightsNoLightKernelsNoShadowRaysNoBuffers) {
-  const Cost cost = costWithout(EffectSet().with(Effect::lights).with(Effect::ambientOcclusion));
-  EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
-  for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
-    EXPECT_EQ(callsOf(cost, s), 0u) << kStageNames[static_cast<std::size_t>(s)];
+// The instances are neither misplaced nor partly visible but gone, as in the reference.
+TEST(AbsentEffects, InstancesAreNotThereAsInTheReference) {
+  RenderOptions o = smallOptions();
+  o.disable = {Effect::instances};
+  EXPECT_LE(differenceFromReference(load("landscape?triangles=20000"), o).pixelsGe2CodesPct, 0.1);
+}
+
+TEST(AbsentEffects, WithoutShadowsEveryLightShines) {
+  const Scene scene = load("matte");
+  RenderOptions o = smallOptions();
+  const Image shadowed = render(scene, o).image;
+  o.disable = {Effect::shadows};
+  const Image lit = render(scene, o).image;
+  for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+    EXPECT_GE(lit.pixels[i].x, shadowed.pixels[i].x);
   }
-  EXPECT_EQ(cost.buffers.unshadowed + cost.buffers.shadows, 0u);
-  EXPECT_EQ(cost.lights, 0u);
 }
 
-TEST(AbsentEffects, WithoutShadowsNoShadowRaysAndNoBufferForThem) {
-  const Cost cost = costWithout(EffectSet().with(Effect::shadows).with(Effect::ambientOcclusion));
-  EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
-  EXPECT_EQ(callsOf(cost, Stage::checkShadows), 0u);
-  EXPECT_GT(callsOf(cost, Stage::addShading), 0u);
-  EXPECT_EQ(cost.buffers.shadows, 0u);
-  EXPECT_GT(cost.buffers.unshadowed, 0u);
-}
+struct Absence {
+  EffectSet effects;
+  std::string gone;     // rays, stages, kernels and buffers
+  FeatureSet features;  // whose columns are gone
+};
 
-TEST(AbsentEffects, WithoutMirrorsNoReflections) {
-  const Cost cost = costWithout(EffectSet().with(Effect::mirror).with(Effect::glossyReflection));
-  EXPECT_EQ(cost.stats.of(RayKind::reflection).rays, 0u);
-  EXPECT_EQ(cost.stats.callsOf(simd::kAddReflections), 0u);
-  EXPECT_GT(cost.stats.of(RayKind::refraction).rays, 0u);
+// Each absence takes away what is listed and nothing else.
+TEST(AbsentEffects, TakeTheirRaysKernelsAndColumnsAlong) {
+  const Cost all = costWithout({});
+  for (const Absence& absence : {
+           Absence{{Effect::lights, Effect::ambientOcclusion},
+                   "shadow occlusion | findRadianceAndShadowRays checkShadows addShading | "
+                   "findRadianceAndShadowRays findAmbientAndOcclusionRays packShadowRays "
+                   "addShading | unshadowed shadows ",
+                   {Feature::spotLights, Feature::shadows}},
+           {{Effect::shadows, Effect::ambientOcclusion},
+            "shadow occlusion | checkShadows | findAmbientAndOcclusionRays packShadowRays | "
+            "shadows ",
+            {Feature::shadows}},
+           {{Effect::mirror, Effect::glossyReflection},
+            "reflection | | addReflections addGlossyReflections | ",
+            {}},
+           {{Effect::glossyReflection}, "| | addGlossyReflections | ", {}},
+           {{Effect::glossy}, "| | addGlossyReflections | ", {Feature::glossy, Feature::lobes}},
+           {{Effect::indirect}, "indirect | | addIndirect | ", {}},
+           {{Effect::ambientOcclusion}, "occlusion | | findAmbientAndOcclusionRays | ", {}},
+           {{Effect::transmission},
+            "refraction | | lookUpCoverage lookUpTransmission addRefractions | ",
+            {Feature::transmissionMaps, Feature::coverage, Feature::transmission,
+             Feature::absorption}},
+           {{Effect::coverage}, "| | lookUpCoverage | ", {Feature::coverage}},
+           {{Effect::instances}, "| | | ", {Feature::instances}},
+           // Fog returns each ray to its eye in the stage of impulses.
+           {{Effect::fog, Effect::transmission, Effect::mirror, Effect::glossyReflection,
+             Effect::indirect},
+            "reflection refraction indirect | addImpulses | lookUpCoverage "
+            "lookUpTransmission addFog addReflections addGlossyReflections addRefractions "
+            "addIndirect returnImpulses returnToEye | ",
+            {Feature::transmissionMaps, Feature::coverage, Feature::transmission,
+             Feature::absorption, Feature::fog}},
+       }) {
+    SCOPED_TRACE(absence.gone);
+    const Cost cost = costWithout(absence.effects);
+    EXPECT_EQ(goneWith(all, cost), absence.gone);
+    EXPECT_TRUE(all.features.without(cost.features) == absence.features);
+    EXPECT_EQ(cost.buffers.hits, cost.bytesOf<HitColumns>());
+    EXPECT_EQ(cost.buffers.surfels, cost.bytesOf<SurfelColumns>());
+  }
 }
 
 TEST(AbsentEffects, WithoutGlossyReflectionNoSamplesAndNoPaths) {
-  const Cost all = costWithout(EffectSet());
-  const Cost cost = costWithout(EffectSet().with(Effect::glossyReflection));
-  EXPECT_EQ(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
-  EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
+  const Cost all = costWithout({}), cost = costWithout({Effect::glossyReflection});
   EXPECT_LT(cost.stats.of(RayKind::reflection).rays, all.stats.of(RayKind::reflection).rays);
   EXPECT_LT(cost.buffers.rays, all.buffers.rays);
 }
 
-TEST(AbsentEffects, WithoutIndirectNoSamples) {
-  const Cost cost = costWithout(EffectSet().with(Effect::indirect));
-  EXPECT_EQ(cost.stats.of(RayKind::indirect).rays, 0u);
-  EXPECT_EQ(cost.stats.callsOf(simd::kAddIndirect), 0u);
-  EXPECT_GT(cost.stats.of(RayKind::occlusion).rays, 0u);
-}
-
-TEST(AbsentEffects, WithoutAmbientOcclusionNoRays) {
-  const Cost cost = costWithout(EffectSet().with(Effect::ambientOcclusion));
-  EXPECT_EQ(cost.stats.of(RayKind::occlusion).rays, 0u);
-  EXPECT_EQ(cost.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
-  EXPECT_GT(cost.stats.of(RayKind::shadow).rays, 0u);
-}
-
-TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
-  const Cost cost = costWithout(EffectSet().with(Effect::transmission));
-  EXPECT_EQ(cost.stats.of(RayKind::refraction).rays, 0u);
-  EXPECT_EQ(cost.stats.callsOf(simd::kAddRefractions), 0u);
-  EXPECT_GT(cost.stats.of(RayKind::reflection).rays, 0u);
-  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, false, true));
-}
-
 TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
-  // Fog returns each ray to its eye in the stage that is counted here.
-  const Cost cost = costWithout(EffectSet()
-                                    .with(Effect::fog)
-                                    .with(Effect::transmission)
-                                    .with(Effect::mirror)
-                                    .with(Effect::glossyReflection)
-                                    .with(Effect::indirect));
-  EXPECT_EQ(callsOf(cost, Stage::addImpulses), 0u);
-  EXPECT_EQ(cost.buffers.rays, columnBytes<RayColumns>(cost, true, false, true));
-  EXPECT_EQ(cost.buffers.radiance, columnBytes<RadianceColumns>(cost, true, true, true));
-}
-
-TEST(AbsentEffects, WithoutGlossyNoSpecularColumns) {
-  const Cost cost = costWithout(EffectSet().with(Effect::glossy));
-  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, false, true, true));
+  const Cost cost = costWithout({Effect::fog, Effect::transmission, Effect::mirror,
+                                 Effect::glossyReflection, Effect::indirect});
+  EXPECT_EQ(cost.buffers.rays, cost.bytesOf<RayColumns>());
+  EXPECT_EQ(cost.buffers.radiance, cost.bytesOf<RadianceColumns>());
 }
 
 // The lobes of whitted are the highlights of its mirrors and glass, and take nothing from others.
@@ -248,40 +263,23 @@ TEST(AbsentEffects, WithoutLobesThatCoverNoColumnsOfTheirShare) {
   EXPECT_FALSE(features.has(Feature::lobes));
 }
 
-TEST(AbsentEffects, WithoutInstancesNoColumnAndNoTransforms) {
-  const Cost cost = costWithout(EffectSet().with(Effect::instances));
-  EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, false));
+TEST(AbsentEffects, TakeTheirTablesAlong) {
+  EXPECT_EQ(costWithout({Effect::lights}).lights, 0u);
+  EXPECT_FALSE(costWithout({Effect::skyImage}).skyImage);
+  EXPECT_FALSE(loadWithout({}).normals.empty());
+  EXPECT_TRUE(loadWithout({Effect::smoothNormals}).normals.empty());
   // Masked lanes need one transform to read.
-  EXPECT_EQ(cost.instances, 1u);
-}
-
-TEST(AbsentEffects, WithoutCoverageNoKernelAndNoColumn) {
-  const Cost whole = costWithout(EffectSet().with(Effect::coverage)),
-             part = costWithout(EffectSet());
-  EXPECT_EQ(whole.stats.callsOf(simd::kLookUpCoverage), 0u);
-  EXPECT_GT(part.stats.callsOf(simd::kLookUpCoverage), 0u);
-  EXPECT_EQ(whole.buffers.surfels, columnBytes<SurfelColumns>(whole, true, true, true));
-  EXPECT_LT(whole.buffers.surfels, part.buffers.surfels);
+  EXPECT_EQ(costWithout({Effect::instances}).instances, 1u);
 }
 
 TEST(AbsentEffects, WithoutTexturesNoTexels) {
-  const EffectSet maps = EffectSet().with(Effect::textures).with(Effect::normalMaps);
-  const Cost all = costWithout(EffectSet()), none = costWithout(maps);
-  EXPECT_EQ(none.texels, 0u);
+  EXPECT_EQ(costWithout({Effect::textures, Effect::normalMaps}).texels, 0u);
+  const std::size_t all = costWithout({}).texels;
   for (const Effect effect : {Effect::textures, Effect::normalMaps}) {
-    const Cost one = costWithout(EffectSet().with(effect));
-    EXPECT_GT(one.texels, none.texels) << nameOf(effect);
-    EXPECT_LT(one.texels, all.texels) << nameOf(effect);
+    const std::size_t one = costWithout({effect}).texels;
+    EXPECT_GT(one, 0u) << nameOf(effect);
+    EXPECT_LT(one, all) << nameOf(effect);
   }
-}
-
-TEST(AbsentEffects, WithoutVertexNormalsNoneAreKept) {
-  EXPECT_TRUE(loadWithout(EffectSet().with(Effect::smoothNormals)).normals.empty());
-  EXPECT_FALSE(loadWithout(EffectSet()).normals.empty());
-}
-
-TEST(AbsentEffects, WithoutASkyImageNoPlanes) {
-  EXPECT_FALSE(costWithout(EffectSet().with(Effect::skyImage)).skyImage);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AbsentEffect, testing::Range(0, kEffectCount), [](const auto& info) {

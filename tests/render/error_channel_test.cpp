@@ -6,42 +6,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/channels.h"
-#include "inspect/reference_frame.h"
+#include "reference/small_scenes.h"
 #include "shipped_scene.h"
 
 namespace whit::test {
 namespace {
 
-Film filmWithErrors(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  renderFrame(renderer, options.mode, chooseCamera(scene, options), film);
-  return film;
+RenderOptions withErrors(Mode mode = Mode::packets) {
+  RenderOptions o = smallOptions();
+  o.mode = mode;
+  o.channels = parseChannels("error");
+  return o;
 }
 
 double meanOf(const Rgb& p) { return (double{p.x} + double{p.y} + double{p.z}) / 3; }
 
 // A triangle emits before a black background.
 Scene discScene() {
-  SceneDescription d;
-  d.name = "disc";
-  d.materials.resize(2);
-  d.materials[1].diffuse = {0, 0, 0};
-  d.materials[1].emission = {0.3f, 0.6f, 0.9f};
+  SceneBuilder builder;
+  Material emitting = blackMaterial();
+  emitting.emission = {0.3f, 0.6f, 0.9f};
 
   Mesh mesh;
   mesh.positions = {{-2, -2, 0}, {2, -1.7f, 0}, {0.3f, 2, 0}};
   mesh.triangles = {{0, 1, 2}};
-  mesh.materials = {1};
-  d.objects.push_back({"disc", {mesh}});
-  d.instances.push_back({0, Affine{}});
-
-  d.cameras.resize(1);
-  d.cameras[0].fov = 60;
-  return repaired(std::move(d));
+  mesh.materials = {builder.add(emitting)};
+  builder.add(mesh);
+  builder.lookFrom({0, 0, 5}).fov = 60;
+  return builder.build();
 }
 
 class ErrorChannel : public testing::TestWithParam<Mode> {};
@@ -51,70 +44,50 @@ class ErrorChannel : public testing::TestWithParam<Mode> {};
 // squares of errors are averaged within kPoolReach.
 TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
   const double radiance = std::sqrt((0.3 * 0.3 + 0.6 * 0.6 + 0.9 * 0.9) / 3);
-  const Scene scene = discScene();
-  RenderOptions o = smallOptions();
-  o.mode = GetParam();
+  RenderOptions o = withErrors(GetParam());
   o.spp = 16;
-  o.channels = parseChannels("error,alpha");
-  const Film film = filmWithErrors(scene, o);
+  o.channels = o.channels.with(Channel::alpha);
+  const Film film = render(discScene(), o);
   const auto errors = film.channels.floats(Channel::error),
              hits = film.channels.floats(Channel::alpha);
 
-  const int width = film.image.width, height = film.image.height;
   double largest = 0;
-
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      double squares = 0, count = 0;
-      for (int j = std::max(y - kPoolReach, 0); j <= std::min(y + kPoolReach, height - 1); ++j) {
-        for (int i = std::max(x - kPoolReach, 0); i <= std::min(x + kPoolReach, width - 1); ++i) {
-          const double p = double{hits[film.image.index(i, j)]};
-          squares += radiance * radiance * p * (1 - p) / (o.spp - 1), ++count;
-        }
+  forEachPixel(film.image, [&](int x, int y) {
+    double squares = 0, count = 0;
+    for (int j = y - kPoolReach; j <= y + kPoolReach; ++j) {
+      for (int i = x - kPoolReach; i <= x + kPoolReach; ++i) {
+        if (!film.image.window.contains(i, j)) continue;
+        const double p{hits[film.image.index(i, j)]};
+        squares += radiance * radiance * p * (1 - p) / (o.spp - 1);
+        ++count;
       }
-      const double expected = std::sqrt(squares / count);
-      // Double sums numbers in float, so equal samples leave the root of their rounding.
-      EXPECT_NEAR(double{errors[2 * film.image.index(x, y)]}, expected, 1e-6) << x << "," << y;
-      largest = std::max(largest, expected);
     }
-  }
+
+    const double expected = std::sqrt(squares / count);
+    // Double sums numbers in float, so equal samples leave the root of their rounding.
+    EXPECT_NEAR(errors[2 * film.image.index(x, y)], expected, 1e-6) << x << "," << y;
+    largest = std::max(largest, expected);
+  });
   EXPECT_GT(largest, 0.03);
 }
 
 TEST_P(ErrorChannel, IsInfiniteForOneSample) {
-  RenderOptions o = smallOptions();
-  o.mode = GetParam();
-  o.channels = parseChannels("error");
-  const Film film = filmWithErrors(discScene(), o);
+  const Film film = render(discScene(), withErrors(GetParam()));
   const auto errors = film.channels.floats(Channel::error);
-  for (std::size_t i = 0; i < errors.size(); i += 2) {
-    EXPECT_EQ(errors[i], std::numeric_limits<float>::infinity());
-  }
+  for (std::size_t i = 0; i < errors.size(); i += 2) EXPECT_EQ(errors[i], kInfinity);
 }
 
 // Two mirrors face each other, with the camera between them.
 Scene hallScene() {
-  SceneDescription d;
-  d.name = "hall";
-  d.materials.resize(1);
-  d.materials[0].diffuse = {0, 0, 0};
-  d.materials[0].mirror = d.materials[0].mirrorGrazing = {0.2f, 0.5f, 0.3f};
-
+  Material mirror = blackMaterial();
+  mirror.mirror = mirror.mirrorGrazing = {0.2f, 0.5f, 0.3f};
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add(mirror);
   constexpr float kFar = 1000;  // no ray of the tests gets past the edges
-  Mesh mesh;
-  for (const float z : {-1.0f, 4.0f}) {
-    mesh.positions.insert(mesh.positions.end(),
-                          {{-kFar, -kFar, z}, {kFar, -kFar, z}, {0, kFar, z}});
-  }
-
-  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-  mesh.materials = {0, 0};
-  d.objects.push_back({"mirrors", {mesh}});
-  d.instances.push_back({0, Affine{}});
-  d.cameras.resize(1);
-  d.cameras[0].eye = {0, 0, 2};
-  d.cameras[0].fov = 40;
-  return repaired(std::move(d));
+  builder.add(floorAt(-1, kFar, material));
+  builder.add(ceilingAt(4, kFar, material));
+  builder.lookFrom({0, 2, 0}).up = {0, 0, -1};
+  return builder.build();
 }
 
 // After k mirrors of the largest reflectance 0.5 the share is 0.5^k.
@@ -124,15 +97,13 @@ TEST_P(ErrorChannel, HasTheShareOfThePathsThatEndBetweenMirrors) {
     float cutoff;
     double share;
   };
-  for (const Case& c : {Case{0, 1e-3f, 0.5}, Case{3, 1e-3f, 1.0 / 16}, Case{64, 0.1f, 1.0 / 16}}) {
-    RenderOptions o = smallOptions();
-    o.mode = GetParam();
+  for (const Case& c : {Case{0, 1e-3f, 0.5}, {3, 1e-3f, 1.0 / 16}, {64, 0.1f, 1.0 / 16}}) {
+    RenderOptions o = withErrors(GetParam());
     o.depth = c.depth;
     o.cutoff = c.cutoff;
     o.spp = 2;
-    o.channels = parseChannels("error");
 
-    const Film film = filmWithErrors(hallScene(), o);
+    const Film film = render(hallScene(), o);
     const auto errors = film.channels.floats(Channel::error);
     for (std::size_t i = 1; i < errors.size(); i += 2) EXPECT_EQ(double{errors[i]}, c.share);
   }
@@ -143,18 +114,16 @@ TEST_P(ErrorChannel, HasTheShareOfThePathsThatEndBetweenMirrors) {
 TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
   constexpr double kBrightest = 0.86, kRounding = 1e-5;
   const Scene scene = load("glass");
-  RenderOptions o = smallOptions();
+  RenderOptions o = withErrors(GetParam());
   o.size = ImageSize{53, 33};
-  o.mode = GetParam();
-  o.disable = EffectSet().with(Effect::lights).with(Effect::ambient).with(Effect::emission);
-  o.channels = parseChannels("error");
+  o.disable = {Effect::lights, Effect::ambient, Effect::emission};
   o.depth = 3;
   o.cutoff = 0.02f;
-  const Film film = filmWithErrors(scene, o);
+  const Film film = render(scene, o);
 
   o.depth = 32;
   o.cutoff = 1e-4f;
-  const Film exact = filmWithErrors(scene, o);
+  const Film exact = render(scene, o);
   double largest = 0;
   for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
     const Rgb missing = exact.image.pixels[i] - film.image.pixels[i];
@@ -181,16 +150,13 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
   constexpr double kDeviations = 1.96;  // 95 % of a normal distribution
   constexpr double kLeastCovered = 0.9;
   for (const SampledScene& sampled :
-       {SampledScene{"cornell", 1, 0}, SampledScene{"cornell", 0, 1}, SampledScene{"glossy", 0, 0},
-        SampledScene{"whitted", 0, 0}}) {
-    RenderOptions o = smallOptions();
+       {SampledScene{"cornell", 1, 0}, {"cornell", 0, 1}, {"glossy", 0, 0}, {"whitted", 0, 0}}) {
+    RenderOptions o = withErrors();
     o.size = ImageSize{64, 48};
     o.lightSamples = 2;
     o.glossy = 1;
     o.indirect = sampled.indirect;
     o.ambientSamples = sampled.ambientSamples;
-    o.channels = parseChannels("error");
-
     const Scene scene = load(sampled.scene);
 
     // The truth has a quarter of the error of 16 samples, which adds 3 % to the difference of the
@@ -198,8 +164,8 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
     RenderOptions many = o;
     many.spp = 256;
     o.spp = 16;
-    const Image truth = filmWithErrors(scene, many).image;
-    const Film film = filmWithErrors(scene, o);
+    const Image truth = render(scene, many).image;
+    const Film film = render(scene, o);
 
     // Pixels that have no error and claim none say nothing about those that do.
     double covered = 0, noisy = 0, uncertain = 0;

@@ -2,38 +2,54 @@
 // normals.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "reference/small_scenes.h"
 #include "render/kernel_surfels.h"
+#include "rounding.h"
 
 namespace whit::test {
 namespace {
+
+// Returns a square that is placed twice, the first time by this map.
+Scene placed(const Affine& map, float height, float half) {
+  SceneBuilder builder;
+  const Mesh mesh = floorAt(height, half, builder.add(diffuseMaterial(0.5f)));
+  builder.place({"floor", {mesh}}, {map, Affine()});
+  Scene scene = builder.build();
+  EXPECT_EQ(scene.instances.size(), 2u);
+  return scene;
+}
+
+// Interpolates a hit on the first triangle of the first instance on each target.
+void interpolateOnEveryTarget(
+    const Scene& scene, const Vec3f& direction,
+    const std::function<void(const SurfelColumns&, const SurfelRow&)>& check) {
+  for (const std::string& target : simd::availableTargets()) {
+    SCOPED_TRACE(target);
+    KernelSurfels kernel(scene, target);
+    kernel.hit(0, 0, direction, 0, 0);
+    kernel.interpolate();
+    check(kernel.chunk().surfels, kernel.scalar(0));
+  }
+  simd::chooseTarget("auto");
+}
 
 // The offset is 32 u times the magnitudes that make up the point (|x| + |y| + |z| of the corner,
 // scaled by 2, and the translation), and 16 u times the two edges, 4 and 4 + 4 long by axes, scaled
 // by 2.
 TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
   for (const double far : {0.0, 1.0, 1e3, 1e6}) {
-    SceneBuilder builder;
-    const Mesh mesh = floorAt(3, 2, builder.add(diffuseMaterial(0.5f)));
-    const Affine carried = Affine::translation({far, -far, 0.5 * far}) * Affine::scaling(Vec3d(2));
-    builder.place({"floor", {mesh}}, {carried, Affine()});
-    const Scene scene = builder.build();
-
-    ASSERT_EQ(scene.instances.size(), 2u);
+    const Scene scene =
+        placed(Affine::translation({far, -far, 0.5 * far}) * Affine::scaling(Vec3d(2)), 3, 2);
     const double wanted = 0x1p-19 * (2 * (2 + 3 + 2) + 2.5 * far) + 0x1p-20 * 2 * (4 + 4 + 4);
-    for (const std::string& target : simd::availableTargets()) {
-      KernelSurfels kernel(scene, target);
-      kernel.hit(0, 0, {0, -1, 0}, 0, 0);
-      kernel.interpolate();
-
-      // A dozen sums of nonnegative numbers are rounded.
-      const double rounding = 12 * 0x1p-24 * wanted;
-      EXPECT_NEAR(static_cast<double>(kernel.chunk().surfels.offset[0]), wanted, rounding)
-          << target << " " << far;
-      EXPECT_NEAR(kernel.scalar(0).offset, wanted, 1e-15 * wanted) << far;
-    }
+    interpolateOnEveryTarget(scene, {0, -1, 0},
+                             [&](const SurfelColumns& vector, const SurfelRow& scalar) {
+                               // A dozen sums of nonnegative numbers are rounded.
+                               EXPECT_NEAR(vector.offset[0], wanted, 12 * 0x1p-24 * wanted) << far;
+                               EXPECT_NEAR(scalar.offset, wanted, 1e-15 * wanted) << far;
+                             });
   }
-  simd::chooseTarget("auto");
 }
 
 // Cofactors are of the order of the scale's square, and the square of a cofactor exceeds the range
@@ -42,27 +58,14 @@ TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
   const Affine turn = Affine::rotation({1, 2, 3}, 40);
   const Vec3d wanted = turn.normal({0, 1, 0});
   for (const double scale : {1.0, 1e-6, 1e-9, 1e-11, 1e9, 1e11}) {
-    SceneBuilder builder;
-    const Mesh mesh = floorAt(0, 1, builder.add(diffuseMaterial(0.5f)));
-    builder.place({"floor", {mesh}}, {turn * Affine::scaling(Vec3d(scale)), Affine()});
-    const Scene scene = builder.build();
-
-    ASSERT_EQ(scene.instances.size(), 2u);
-
-    for (const std::string& target : simd::availableTargets()) {
-      KernelSurfels kernel(scene, target);
-      kernel.hit(0, 0, Vec3f(-wanted), 0, 0);
-      kernel.interpolate();
-      const SurfelColumns& s = kernel.chunk().surfels;
-      const Vec3d ng(s.ng.at(0)), ns(s.ns.at(0));
-      EXPECT_LE(length(ng - wanted), 1e-6) << target << " " << scale;
-      EXPECT_LE(length(ns - wanted), 1e-6) << target << " " << scale;
-
-      const SurfelRow scalar = kernel.scalar(0);
-      EXPECT_LE(length(Vec3d(scalar.ns) - wanted), 1e-6) << scale;
-    }
+    SCOPED_TRACE(scale);
+    interpolateOnEveryTarget(placed(turn * Affine::scaling(Vec3d(scale)), 0, 1), Vec3f(-wanted),
+                             [&](const SurfelColumns& vector, const SurfelRow& scalar) {
+                               expectNear(Vec3d(vector.ng.at(0)), wanted, 1e-6);
+                               expectNear(Vec3d(vector.ns.at(0)), wanted, 1e-6);
+                               expectNear(Vec3d(scalar.ns), wanted, 1e-6);
+                             });
   }
-  simd::chooseTarget("auto");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class KernelSurfels {
     Chunk& c = chunk();
 
     setRay(c.rays, slot, {0, 0, 0}, direction);
-    c.rays.weight.x[slot] = c.rays.weight.y[slot] = c.rays.weight.z[slot] = 1;
+    c.rays.weight.set(slot, Rgb(1.0f));
     c.rays.throughput[slot] = 1;
     c.rays.media[slot] = stack;
     c.hits.triangle[slot] = triangle;

@@ -24,8 +24,8 @@ inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions opt
 
     for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, options), film)) {
       EXPECT_LE(row.worstUlp, row.limitUlp)
-          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
-          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
+          << target << " " << entryOf(kStageNames, row.stage) << " " << row.column << " at "
+          << row.pixelX << "," << row.pixelY << " depth " << row.depth;
       EXPECT_GT(row.slots, 0u);
     }
   }
@@ -75,23 +75,30 @@ inline std::vector<Division> usualDivisions() {
 // Expects the same bits however the work is divided.
 inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions& options,
                                         const std::vector<Division>& divisions = usualDivisions()) {
-  const Image expected = render(scene, options).image;
+  const Picture expected = render(scene, options);
   for (const Division& division : divisions) {
     RenderOptions o = options;
     division.set(o);
-    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << division.name;
+    EXPECT_EQ(firstDifference(render(scene, o), expected), "") << division.name;
   }
 }
 
-// Expects that a part of the picture has the bits of the whole.
+// Expects that a part of the picture and of its channels has the bits of the whole.
 inline void expectBitsOfTheWhole(const Scene& scene, RenderOptions options, const Crop& crop) {
-  const Image whole = render(scene, options).image;
+  const Picture whole = render(scene, options);
   options.crop = crop;
-  const Image part = render(scene, options).image;
-  for (int y = crop.y0; y < crop.y1; ++y) {
-    for (int x = crop.x0; x < crop.x1; ++x)
-      EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << "," << y;
-  }
+  const Picture part = render(scene, options);
+
+  forEachPixel(part.image, [&](int x, int y) {
+    EXPECT_EQ(part.image.at(x, y), whole.image.at(x, y)) << x << "," << y;
+    options.channels.forEach([&](Channel c) {
+      const auto bytesAt = [&](const Film& film) {
+        const std::size_t size = infoOf(c).components * sizeof(float);
+        return bytesOf(film.channels, c).subspan(size * film.image.index(x, y), size);
+      };
+      EXPECT_TRUE(std::ranges::equal(bytesAt(part), bytesAt(whole))) << infoOf(c).name << x << y;
+    });
+  });
 }
 
 }  // namespace whit::test

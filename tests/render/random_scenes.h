@@ -12,21 +12,12 @@
 
 namespace whit::test {
 
-using verify::makeTexture;
-
 struct Soup {
-  SceneDescription description;
+  verify::SceneBuilder builder;
   Mesh mesh;
   std::mt19937 random;
 
-  explicit Soup(unsigned seed) : random(seed) {
-    description.name = "soup";
-    description.materials.resize(1);
-    description.materials[0].name = "gray";
-    description.width = 64;
-    description.height = 48;
-    mesh.materials = {0};
-  }
+  explicit Soup(unsigned seed) : random(seed) { mesh.materials = {builder.add(Material())}; }
 
   float uniform(float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(random);
@@ -52,25 +43,18 @@ struct Soup {
   }
 
   void light(const Vec3f& at, bool directional = false) {
-    Light light;
-    light.position = at;
+    Light light = verify::lightAt(at, 1);
     light.direction = -at;
     if (directional) light.kind = Light::Kind::directional;
-    description.lights.push_back(light);
+    builder.description.lights.push_back(light);
   }
 
   Scene finish(const Vec3f& eye, const Vec3f& at, const Vec3f& moved = {}) {
-    for (Vec3f& p : mesh.positions) p = p + moved;
-    for (Light& l : description.lights) l.position = l.position + moved;
-    Camera camera;
-    camera.eye = eye + moved;
-    camera.at = at + moved;
-    description.cameras = {camera};
-    description.objects.push_back({"soup", {std::move(mesh)}});
-    description.instances.push_back(
-        {static_cast<std::uint32_t>(description.objects.size() - 1), Affine{}});
-
-    return repaired(std::move(description));
+    for (Vec3f& p : mesh.positions) p += moved;
+    for (Light& l : builder.description.lights) l.position += moved;
+    builder.add(std::move(mesh));
+    builder.lookFrom(eye + moved, at + moved);
+    return verify::repaired(builder.describe());
   }
 };
 
@@ -104,10 +88,8 @@ inline Scene randomScene(unsigned kind, unsigned seed) {
 
   // Kind 3: one half of the triangles has masks with holes.
   if (kind == 3) {
-    Material& gray = soup.description.materials[0];
-    gray.alphaMap = 0;
-    soup.description.textures = {makeTexture(
-        TexelFormat::data, 2, 1, {encodeDataTexel(1, 1, 1, 1), encodeDataTexel(0, 0, 0, 0)})};
+    soup.builder.description.materials[0].alphaMap = soup.builder.add(verify::makeTexture(
+        TexelFormat::data, 2, 1, {encodeDataTexel(1, 1, 1, 1), encodeDataTexel(0, 0, 0, 0)}));
 
     for (int i = 0; i < 30; ++i) triangle(above(), 1);
     for (std::size_t i = 0; i < soup.mesh.positions.size(); ++i) {

@@ -92,7 +92,7 @@ inline void expectStep(const char* step, const Scene& scene, const RenderOptions
   EXPECT_NE(makePlan(scene, options).find(step), nullptr) << step;
   for (const Effect effect : effects) {
     RenderOptions o = options;
-    o.disable = EffectSet().with(effect);
+    o.disable = {effect};
     EXPECT_EQ(makePlan(scene, o).find(step), nullptr) << step;
   }
   if (plain) {
@@ -104,9 +104,8 @@ inline void expectStep(const char* step, const Scene& scene, const RenderOptions
 inline void expectTheReferenceWithout(const Scene& scene, std::initializer_list<Effect> effects) {
   for (const Effect effect : effects) {
     RenderOptions o = smallOptions();
-    o.disable = EffectSet().with(effect);
-    const auto name = kEffectNames[static_cast<std::size_t>(effect)].name;
-    expectThePictureOfTheReference(scene, o, std::string(name));
+    o.disable = {effect};
+    expectThePictureOfTheReference(scene, o, std::string(nameOf(effect)));
   }
 }
 

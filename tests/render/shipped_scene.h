@@ -1,9 +1,11 @@
 // Shipped scenes in small pictures, rendered in different ways.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <map>
-#include <memory>
+#include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,7 @@ struct Picture : Film {
 };
 
 // In packets or by the reference, as the renderer is now.
-inline Picture render(Renderer& renderer, bool packets = true) {
+inline Picture render(Renderer& renderer, bool packets) {
   const Camera camera = chooseCamera(renderer.scene(), renderer.options());
   Picture picture{makeFilm(renderer.scene(), renderer.options()), {}};
   picture.stats =
@@ -59,9 +61,18 @@ inline Picture render(Renderer& renderer, bool packets = true) {
   return picture;
 }
 
-inline Picture render(const Scene& scene, const RenderOptions& options, bool packets = true) {
+// As the renderer's options say.
+inline Picture render(Renderer& renderer) {
+  return render(renderer, renderer.options().mode == Mode::packets);
+}
+
+inline Picture render(const Scene& scene, const RenderOptions& options, bool packets) {
   Renderer renderer(scene, options);
   return render(renderer, packets);
+}
+inline Picture render(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  return render(renderer);
 }
 
 struct BothModes {
@@ -70,22 +81,47 @@ struct BothModes {
 
 inline BothModes renderBoth(const Scene& scene, const RenderOptions& options) {
   Renderer renderer(scene, options);
-  return {render(renderer), render(renderer, false)};
+  return {render(renderer, true), render(renderer, false)};
+}
+
+// Calls visit(x, y) for each pixel of the picture, in coordinates of the whole image.
+template <typename Visit>
+void forEachPixel(const Image& image, const Visit& visit) {
+  const Crop& window = image.window;
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) visit(x, y);
+  }
 }
 
 // Returns a description of the first pixel whose bits differ, or an empty string.
 inline std::string firstDifference(const Image& a, const Image& b) {
   if (a.pixels.size() != b.pixels.size()) return "different sizes";
+  const auto width = static_cast<std::size_t>(a.windowWidth());
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    if (std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(Rgb)) == 0) continue;
-    const auto w = static_cast<std::size_t>(a.windowWidth());
-    char text[160];
-    std::snprintf(text, sizeof(text), "pixel %zu,%zu: %a %a %a against %a %a %a", i % w, i / w,
-                  double{a.pixels[i].x}, double{a.pixels[i].y}, double{a.pixels[i].z},
-                  double{b.pixels[i].x}, double{b.pixels[i].y}, double{b.pixels[i].z});
-    return text;
+    const Rgb &p = a.pixels[i], &q = b.pixels[i];
+    if (std::memcmp(&p, &q, sizeof(Rgb)) == 0) continue;
+    std::ostringstream text;
+    text << std::hexfloat << "pixel " << i % width << ',' << i / width << ": " << p.x << ' ' << p.y
+         << ' ' << p.z << " against " << q.x << ' ' << q.y << ' ' << q.z;
+    return text.str();
   }
   return {};
+}
+
+inline std::span<const std::byte> bytesOf(const ChannelLayers& layers, Channel channel) {
+  if (infoOf(channel).countsThings) return std::as_bytes(layers.numbers(channel));
+  return std::as_bytes(layers.floats(channel));
+}
+
+// The same for films, of which the channels are compared, too.
+inline std::string firstDifference(const Film& a, const Film& b) {
+  std::string difference = firstDifference(a.image, b.image);
+  a.channels.channels().forEach([&](Channel c) {
+    if (!std::ranges::equal(bytesOf(a.channels, c), bytesOf(b.channels, c))) {
+      difference += " channel " + std::string(infoOf(c).name);
+    }
+  });
+  return difference;
 }
 
 // Scenes with the common effects. Only the scene `effects` has all of them.
