@@ -49,9 +49,8 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
 
   for (const std::uint32_t stack : stacks) {
     // Each medium has a slot for a ray from outside and a slot for a ray from inside.
-    const auto triangleAt = [](std::size_t slot) { return static_cast<std::uint32_t>(slot & ~1u); };
-    for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
-      kernel.hit(slot, triangleAt(slot), {0, slot % 2 ? 1.0f : -1.0f, 0}, stack);
+    for (std::uint32_t slot = 0; slot < 2 * kMedia; ++slot) {
+      kernel.hit(slot, slot & ~1u, {0, slot % 2 ? 1.0f : -1.0f, 0}, stack);
     }
 
     kernel.interpolate();
@@ -59,13 +58,11 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
     const Chunk& c = kernel.chunk();
 
     for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
+      SCOPED_TRACE(simd + " stack " + std::to_string(stack) + " slot " + std::to_string(slot));
       const SurfelRow scalar = kernel.scalar(slot);
-      ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind)
-          << simd << " stack " << std::hex << stack << " slot " << slot;
-      ASSERT_EQ(c.surfels.flags[slot], scalar.flags)
-          << simd << " stack " << std::hex << stack << " slot " << slot;
-      ASSERT_NEAR(static_cast<double>(c.rays.weight.x[slot]), left, kAbsorbed)
-          << simd << " stack " << std::hex << stack << " slot " << slot;
+      ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind);
+      ASSERT_EQ(c.surfels.flags[slot], scalar.flags);
+      ASSERT_NEAR(c.rays.weight.x[slot], left, kAbsorbed);
     }
   }
 }

@@ -9,27 +9,27 @@ namespace {
 // Tiles have textures of nearest texels for color, roughness and mask, beside interpolated ones.
 Scene pixelArt(bool everywhere) {
   SceneBuilder builder;
-  const auto isNearest = [&](int i) { return everywhere || i % 2 == 0; };
   std::array<std::int32_t, 2> color{}, data{}, mask{};
-
-  for (const int i : {0, 1}) {
+  for (const std::size_t i : {0, 1}) {
     const auto add = [&](TexelFormat format, const std::vector<std::uint32_t>& texels) {
       Texture t = makeTexture(format, 3, 2, texels);
-      t.nearest = isNearest(i);
+      t.nearest = everywhere || i == 0;
       t.wrapU = Wrap::mirror;
       return builder.add(t);
     };
+    const auto addData = [&](std::initializer_list<float> values) {
+      std::vector<std::uint32_t> texels;
+      for (const float x : values) texels.push_back(encodeDataTexel(x, x, x, x));
+      return add(TexelFormat::data, texels);
+    };
 
-    const auto texel = [](float x) { return encodeDataTexel(x, x, x, x); };
-    const auto at = static_cast<std::size_t>(i);
-    color[at] = add(TexelFormat::color, {1023u, 0u, 700u << 10, 1023u << 20, 341u, 900u << 10});
-    data[at] = add(TexelFormat::data,
-                   {texel(1), texel(0.3f), texel(0.6f), texel(0.2f), texel(0.9f), texel(0.5f)});
-    mask[at] = add(TexelFormat::data, {texel(1), texel(0), texel(1), texel(0), texel(1), texel(0)});
+    color[i] = add(TexelFormat::color, {1023u, 0u, 700u << 10, 1023u << 20, 341u, 900u << 10});
+    data[i] = addData({1, 0.3f, 0.6f, 0.2f, 0.9f, 0.5f});
+    mask[i] = addData({1, 0, 1, 0, 1, 0});
   }
 
   return rowOfTiles(builder, [&](int i) {
-    const auto at = static_cast<std::size_t>(i % 2);
+    const std::size_t at = i % 2;
     Material m = diffuseMaterial(0.8f);
     m.diffuseMap = color[at];
     if (i / 2 == 1) {

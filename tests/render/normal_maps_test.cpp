@@ -14,11 +14,7 @@ constexpr double kShaded = 1e-6;
 // The normal of the floor leans by 45 degrees along u, which runs along x over `u` units of texture
 // space; v runs along -z over `v`. The floor is seen from above, in sunlight from +x and from
 // above.
-struct LeaningFloor {
-  Scene scene;
-  double wanted;  // radiance
-};
-LeaningFloor leaningFloor(float u, float v) {
+std::pair<Scene, double> floorAndRadiance(float u, float v) {
   SceneBuilder builder;
   Material m = diffuseMaterial(0.5f);
   const float lean = 0.5f + 0.5f * std::sqrt(0.5f);
@@ -30,12 +26,8 @@ LeaningFloor leaningFloor(float u, float v) {
   builder.add(std::move(mesh));
   builder.description.lights = {whit::test::sun({-1, -1, 0}, 2)};
 
-  Camera camera;
   // The diagonal of the floor passes no pixel's center.
-  camera.eye = {0.03f, 3, 0};
-  camera.at = {0.03f, 0, 0};
-  camera.up = {0, 0, -1};
-  builder.description.cameras = {camera};
+  builder.lookFrom({0.03f, 3, 0}, {0.03f, 0, 0}).up = {0, 0, -1};
 
   // The texel is rounded to eight bits, of which 128 does not decode to 0.
   const double x = std::round(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
@@ -50,13 +42,10 @@ TEST(NormalMaps, ApplyWhateverTheSpanOfTheirCoordinates) {
                                  {1e-30f, 1}, {1, 1e-30f},      {1e-36f, 1e-30f}, {1e30f, 1e30f}};
 
   for (const auto& [u, v] : kSpans) {
-    const auto [scene, wanted] = leaningFloor(u, v);
+    const auto [scene, wanted] = floorAndRadiance(u, v);
     const auto [packets, reference] = renderBoth(scene, smallOptions());
-    for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
-      const double p = static_cast<double>(packets.image.pixels[i].x);
-      ASSERT_NEAR(static_cast<double>(reference.image.pixels[i].x), wanted, kShaded)
-          << u << " " << v;
-      ASSERT_NEAR(p, wanted, kShaded) << u << " by " << v;
+    for (const Image* image : {&packets.image, &reference.image}) {
+      for (const Rgb& pixel : image->pixels) ASSERT_NEAR(pixel.x, wanted, kShaded) << u << " " << v;
     }
     expectStagesAgreeOnEveryTarget(scene, smallOptions());
   }

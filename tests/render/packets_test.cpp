@@ -68,32 +68,22 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
     simd::findPacketKernels().packRays(*rays, kPacked, kReach, packets(width));
-    namespace column = packet_column;
     for (std::size_t i = 0; i < (kPacked + width - 1) / width * width; ++i) {
-      const auto at = [&](std::size_t c) { return word(i, c, width); };
-      const bool good = i < kPacked && std::find(bad.begin(), bad.end(), i) == bad.end();
-
-      if (good) {
-        EXPECT_EQ(at(column::orgX), rays->org.x[i]) << i;
-        EXPECT_EQ(at(column::orgY), rays->org.y[i]) << i;
-        EXPECT_EQ(at(column::orgZ), rays->org.z[i]) << i;
-        EXPECT_EQ(at(column::dirX), rays->dir.x[i]) << i;
-        EXPECT_EQ(at(column::dirY), rays->dir.y[i]) << i;
-        EXPECT_EQ(at(column::dirZ), rays->dir.z[i]) << i;
-        EXPECT_EQ(at(column::tFar), kInf) << i;
-        continue;
-      }
-
       // Invalid rays and lanes behind the last ray are inactive: their tFar is negative.
       const float place = i < kPacked ? kReach / 4 : 0;
-      for (const std::size_t c : {column::orgX, column::orgY, column::orgZ}) {
-        EXPECT_EQ(at(c), place) << i;
+      Vec3f origin(place), direction{0, 0, 1};
+      float reach = -1;
+      if (i < kPacked && std::ranges::find(bad, i) == bad.end()) {
+        origin = rays->org.at(i);
+        direction = rays->dir.at(i);
+        reach = kInf;
       }
 
-      EXPECT_EQ(at(column::dirX), 0) << i;
-      EXPECT_EQ(at(column::dirY), 0) << i;
-      EXPECT_EQ(at(column::dirZ), 1) << i;
-      EXPECT_EQ(at(column::tFar), -1) << i;
+      const auto at = [&](std::size_t column) { return word(i, column, width); };
+      using namespace packet_column;
+      EXPECT_EQ((Vec3f{at(orgX), at(orgY), at(orgZ)}), origin) << i;
+      EXPECT_EQ((Vec3f{at(dirX), at(dirY), at(dirZ)}), direction) << i;
+      EXPECT_EQ(at(tFar), reach) << i;
     }
 
     // Kernels leave the columns alone that they do not know.
@@ -109,80 +99,62 @@ TEST_F(Packets, HoldWhereShadowRaysEnd) {
   forEachWidthAndTarget([&](std::size_t width) {
     simd::findPacketKernels().packShadowRays(*rays, kPacked, kReach, packets(width));
     for (std::size_t i = 0; i < kPacked; ++i) {
-      const bool good = std::find(bad.begin(), bad.end(), i) == bad.end();
+      const bool good = std::ranges::find(bad, i) == bad.end();
       EXPECT_EQ(word(i, packet_column::tFar, width), good ? rays->tFar[i] : -1) << i;
     }
   });
 }
 
-std::uint32_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value); }
 float floatOf(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
-  const std::uint32_t triangleBase[kTriangleClasses] = {100, 2000, 30000, 400000};
-  forEachWidthAndTarget([&](std::size_t width) {
-    for (std::size_t i = 0; i < kPacked; ++i) {
-      const auto number = static_cast<std::uint32_t>(i);
-      word(i, packet_column::tFar, width) = static_cast<float>(i) + 0.5f;
-      word(i, packet_column::u, width) = 0.125f;
-      word(i, packet_column::v, width) = 0.01f * static_cast<float>(i);
-      word(i, packet_column::primitive, width) = floatOf(7 * number);
-      word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
-    }
-
-    ColumnStore<HitColumns> hits(kPacked, FeatureSet());
-    simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase, *hits);
-
-    for (std::size_t i = 0; i < kPacked; ++i) {
-      const auto number = static_cast<std::uint32_t>(i);
-      EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
-      EXPECT_EQ(bitsOf(hits->u[i]), bitsOf(0.125f));
-      EXPECT_EQ(hits->v[i], 0.01f * static_cast<float>(i));
-      EXPECT_EQ(hits->triangle[i], i % 5 == 4 ? kMiss : triangleBase[i % 5] + 7 * number) << i;
-    }
-  });
-}
-
-TEST_F(Packets, TellOnWhichInstanceATriangleWasHit) {
   // The world and two instances have four classes of triangles each.
   std::vector<std::uint32_t> triangleBase(3 * kTriangleClasses);
-  for (std::size_t i = 0; i < triangleBase.size(); ++i) {
-    triangleBase[i] = 1000 * static_cast<std::uint32_t>(i + 1);
-  }
+  for (std::uint32_t i = 0; i < triangleBase.size(); ++i) triangleBase[i] = 1000 * (i + 1);
 
   // Embree's ids: of none, of the world in scenes that move, and of the instances.
   const std::uint32_t ids[] = {kMiss, 0, kFirstInstanceId, kFirstInstanceId + 1};
   const std::uint32_t instances[] = {kMiss, kMiss, 0, 1}, placed[] = {0, 0, 1, 2};
 
-  forEachWidthAndTarget([&](std::size_t width) {
-    for (std::size_t i = 0; i < kPacked; ++i) {
-      const auto number = static_cast<std::uint32_t>(i);
-      word(i, packet_column::primitive, width) = floatOf(number);
-      word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
-      word(i, packet_column::instance, width) = floatOf(i % 5 == 4 ? kMiss : ids[i % 4]);
-    }
+  for (const bool instanced : {false, true}) {
+    forEachWidthAndTarget([&](std::size_t width) {
+      for (std::uint32_t i = 0; i < kPacked; ++i) {
+        const bool missed = i % 5 == 4;
+        word(i, packet_column::tFar, width) = static_cast<float>(i) + 0.5f;
+        word(i, packet_column::u, width) = 0.125f;
+        word(i, packet_column::v, width) = 0.01f * static_cast<float>(i);
+        word(i, packet_column::primitive, width) = floatOf(7 * i);
+        word(i, packet_column::geometry, width) = floatOf(missed ? kMiss : i % 5);
+        word(i, packet_column::instance, width) = floatOf(missed ? kMiss : ids[i % 4]);
+      }
 
-    ColumnStore<HitColumns> hits(kPacked, FeatureSet().with(Feature::instances));
-    simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase.data(), *hits);
+      FeatureSet features;
+      if (instanced) features = features.with(Feature::instances);
+      ColumnStore<HitColumns> hits(kPacked, features);
+      simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase.data(), *hits);
 
-    for (std::size_t i = 0; i < kPacked; ++i) {
-      const bool missed = i % 5 == 4;
-      const auto number = static_cast<std::uint32_t>(i);
-      const std::size_t base = placed[i % 4] * kTriangleClasses + i % 5;
-      EXPECT_EQ(hits->instance[i], missed ? kMiss : instances[i % 4]) << i;
-      EXPECT_EQ(hits->triangle[i], missed ? kMiss : triangleBase[base] + number) << i;
-    }
-  });
+      for (std::uint32_t i = 0; i < kPacked; ++i) {
+        const bool missed = i % 5 == 4;
+        const std::size_t base = (instanced ? placed[i % 4] * kTriangleClasses : 0) + i % 5;
+        EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
+        EXPECT_EQ(hits->u[i], 0.125f);
+        EXPECT_EQ(hits->v[i], 0.01f * static_cast<float>(i));
+        EXPECT_EQ(hits->triangle[i], missed ? kMiss : triangleBase[base] + 7 * i) << i;
+        if (!instanced) continue;
+        EXPECT_EQ(hits->instance[i], missed ? kMiss : instances[i % 4]) << i;
+      }
+    });
+  }
 }
 
 TEST_F(Packets, GiveVisibilityBackToTheSlots) {
   forEachWidthAndTarget([&](std::size_t width) {
     std::vector<std::uint32_t> slot(kPacked);
     std::vector<float> visible(4 * kPacked, -7.0f);
-    for (std::size_t i = 0; i < kPacked; ++i) {
+    for (std::uint32_t i = 0; i < kPacked; ++i) {
       // Embree sets tFar to -infinity where a ray is occluded.
       constexpr float kFar[] = {-kInf, 0, 0.75f};
-      slot[i] = static_cast<std::uint32_t>(3 * i);
+      slot[i] = 3 * i;
       word(i, packet_column::tFar, width) = kFar[i % 3];
     }
 

@@ -40,15 +40,14 @@ TEST(RayLines, EveryLookHasAColorOfItsOwn) {
 std::set<RayLook> looksIn(const RenderOptions& options) {
   const Scene scene = load("cornell");
   Renderer renderer(scene, options);
+  const Camera camera = chooseCamera(scene, options);
   const Film film = makeFilm(scene, options);
   std::set<RayLook> looks;
 
   for (int x = 0; x < options.size->width; ++x) {
-    const RayTree tree =
-        traceRayTree(renderer, chooseCamera(scene, options), film, x, options.size->height / 2);
-
+    const RayTree tree = traceRayTree(renderer, camera, film, x, options.size->height / 2);
     std::size_t shadows = 0;
-    for (const RayLine& line : linesOf(tree, chooseCamera(scene, options))) {
+    for (const RayLine& line : linesOf(tree, camera)) {
       looks.insert(line.look);
       shadows += isDashed(line.look);
       if (isDashed(line.look)) continue;
@@ -74,8 +73,7 @@ TEST(RayLines, ShowIndirectLightAndOcclusionAsSuch) {
   options.indirect = 0;
   options.ambientSamples = 2;
   const std::set<RayLook> occluded = looksIn(options);
-  EXPECT_TRUE(occluded.contains(open));
-  EXPECT_TRUE(occluded.contains(blocked));
+  EXPECT_TRUE(occluded.contains(open) && occluded.contains(blocked));
 }
 
 }  // namespace

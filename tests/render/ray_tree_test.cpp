@@ -33,30 +33,47 @@ Rgb pixelOf(const RayTree& tree) {
   return Rgb(sum / static_cast<double>(tree.primaries.size()));
 }
 
-void expectSumsOfPixels(const Scene& scene) {
+RenderOptions sizedOptions(int width, int height) {
   RenderOptions options;
-  options.size = ImageSize{60, 40};
-  options.depth = 10;
-  Renderer renderer(scene, options);
-  const Camera camera = chooseCamera(scene, options);
+  options.size = ImageSize{width, height};
+  return options;
+}
 
-  Film film = makeFilm(scene, options), reference = film;
-  renderer.render(camera, film);
-  renderReference(renderer, camera, reference);
+// The trees of a scene's pixels, in either mode.
+struct RayTrees {
+  RayTrees(const Scene& scene, const RenderOptions& options)
+      : renderer(scene, options),
+        camera(chooseCamera(scene, options)),
+        film(makeFilm(scene, options)) {}
+
+  RayTree at(int x, int y) { return traceRayTree(renderer, camera, film, x, y); }
+  RayTree referenceAt(int x, int y, const RayTree& tree) {
+    return traceReferenceTree(renderer, camera, film, x, y, tree.samples);
+  }
+
+  Renderer renderer;
+  Camera camera;
+  Film film;
+};
+
+void expectSumsOfPixels(const Scene& scene) {
+  RenderOptions options = sizedOptions(60, 40);
+  options.depth = 10;
+  RayTrees trees(scene, options);
+  trees.film = render(trees.renderer);
+  const Image reference = render(trees.renderer, false).image;
+
   std::mt19937 random(7);
   for (int i = 0; i < 40; ++i) {
     const int x = static_cast<int>(random() % 60), y = static_cast<int>(random() % 40);
-    const RayTree tree = traceRayTree(renderer, camera, film, x, y);
-
-    EXPECT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
-    EXPECT_EQ(pixelOf(tree), film.image.at(x, y)) << x << "," << y;
-    EXPECT_EQ(traceReferenceTree(renderer, camera, film, x, y, tree.samples).pixel,
-              reference.image.at(x, y))
-        << x << "," << y;
+    const RayTree tree = trees.at(x, y);
+    EXPECT_EQ(tree.pixel, trees.film.image.at(x, y)) << x << "," << y;
+    EXPECT_EQ(pixelOf(tree), tree.pixel) << x << "," << y;
+    EXPECT_EQ(trees.referenceAt(x, y, tree).pixel, reference.at(x, y)) << x << "," << y;
   }
 }
 
-class ShippedRayTree : public testing::TestWithParam<const char*> {};
+class ShippedRayTree : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedRayTree, SumsUpToThePixel) { expectSumsOfPixels(load(GetParam())); }
 
@@ -68,82 +85,59 @@ TEST(RayTreeInFog, SumsUpToThePixel) {
   expectSumsOfPixels(scene);
 }
 
-class AdaptiveRayTree : public testing::TestWithParam<const char*> {};
+class AdaptiveRayTree : public testing::TestWithParam<std::string> {};
 
 // Some pixels have one sample, some those of the probes, and some all.
 TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
   const Scene scene = load(GetParam());
-  RenderOptions options;
-  options.size = kSanitized ? ImageSize{30, 20} : ImageSize{60, 40};
+  RenderOptions options = kSanitized ? sizedOptions(30, 20) : sizedOptions(60, 40);
   options.spp = 9;
   options.adaptive = true;
-
-  Renderer renderer(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  Film film = makeFilm(scene, options), reference = film;
-  renderer.render(camera, film);
-  renderReference(renderer, camera, reference);
+  RayTrees trees(scene, options);
+  trees.film = render(trees.renderer);
+  const Image reference = render(trees.renderer, false).image;
 
   std::map<std::size_t, int> pixels;
   int otherReference = 0;
   const int step = kSanitized ? 5 : 3;
   for (int y = 0; y < options.size->height; y += step) {
     for (int x = 0; x < options.size->width; x += step + 1) {
-      const RayTree tree = traceRayTree(renderer, camera, film, x, y);
-      ASSERT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
+      const RayTree tree = trees.at(x, y);
+      ASSERT_EQ(tree.pixel, trees.film.image.at(x, y)) << x << "," << y;
       ASSERT_EQ(tree.primaries.size(), tree.samples.size());
       ++pixels[tree.samples.size()];
-      otherReference += traceReferenceTree(renderer, camera, film, x, y, tree.samples).pixel !=
-                        reference.image.at(x, y);
+      otherReference += trees.referenceAt(x, y, tree).pixel != reference.at(x, y);
     }
   }
 
-  for (const auto& [samples, count] : pixels) {
-    EXPECT_TRUE(samples == 1 || samples == 4 || samples == 9) << samples;
-  }
   EXPECT_EQ(pixels.size(), 3u);
+  for (const std::size_t samples : {1, 4, 9}) EXPECT_TRUE(pixels.contains(samples)) << samples;
   // The probes of the reference may decide otherwise.
   EXPECT_LE(otherReference, 2);
 }
 
-std::string nameOfScene(const testing::TestParamInfo<const char*>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
 INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                          testing::Values("matte", "whitted", "mirrors", "glass", "effects",
                                          "glossy"),
-                         nameOfScene);
+                         [](const auto& info) { return info.param; });
 
 // The samples of one scene differ at edges only, and the other scene samples lobes.
-INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"), nameOfScene);
+INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"),
+                         [](const auto& info) { return info.param; });
 
 // A surface stands before a wall, which emits light by default.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
   SceneBuilder builder;
-  const auto wallAt = [&](float z, const Material& material) {
-    Mesh wall;
-    wall.positions = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
-    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
-    wall.materials = {builder.add(material)};
-    builder.add(std::move(wall));
-  };
-
-  wallAt(0, surface);
-  wallAt(4, behind);
+  builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.add(surface)));
+  builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}, builder.add(behind)));
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
   return builder.build();
 }
 
 TEST(RayTree, OfAMirror) {
   const Scene scene = surfaceAndWall(mirrorMaterial(0.5f));
-  RenderOptions options;
-  options.size = ImageSize{9, 9};
-  Renderer renderer(scene, options);
-  const Film film = makeFilm(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  const RayTree tree = traceRayTree(renderer, camera, film, 4, 4);
+  RayTrees trees(scene, sizedOptions(9, 9));
+  const RayTree tree = trees.at(4, 4);
 
   // The mirror is 2 before the camera, and the wall 4 behind the mirror in the mirrored direction.
   ASSERT_EQ(tree.nodes.size(), 2u);
@@ -153,10 +147,10 @@ TEST(RayTree, OfAMirror) {
   EXPECT_NEAR(tree.nodes[1].distance, 4, 1e-5);
   EXPECT_NEAR(tree.nodes[1].weight.x, 0.5, 1e-6);
   EXPECT_NEAR(tree.nodes[1].radiance.x, 0.8, 1e-6);
-  EXPECT_NEAR(double{tree.pixel.x}, 0.4, 1e-6);
+  EXPECT_NEAR(tree.pixel.x, 0.4, 1e-6);
   EXPECT_EQ(tree.nodes[0].endOf(RayKind::reflection), PathEnd::none);
 
-  const RayTree reference = traceReferenceTree(renderer, camera, film, 4, 4, tree.samples);
+  const RayTree reference = trees.referenceAt(4, 4, tree);
   ASSERT_EQ(reference.nodes.size(), 2u);
   const std::vector<std::size_t> counterpart = counterparts(tree, reference);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -166,41 +160,41 @@ TEST(RayTree, OfAMirror) {
   }
 }
 
+// Returns how the path of the middle pixel ends at the first surface.
+PathEnd endOf(const Scene& scene, const RenderOptions& options, RayKind kind) {
+  return RayTrees(scene, options).at(4, 4).nodes[0].endOf(kind);
+}
+
 TEST(RayTree, SaysWhyPathsEnd) {
-  const Scene scene = surfaceAndWall(mirrorMaterial(0.5f));
-  RenderOptions options;
-  options.size = ImageSize{9, 9};
-
-  const auto endWith = [&] {
-    Renderer renderer(scene, options);
-    const Film film = makeFilm(scene, options);
-    return traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4)
-        .nodes[0]
-        .endOf(RayKind::reflection);
-  };
-
-  options.depth = 0;
-  EXPECT_EQ(endWith(), PathEnd::depth);
-
-  options.depth = 8;
+  const Scene mirror = surfaceAndWall(mirrorMaterial(0.5f));
+  RenderOptions options = sizedOptions(9, 9);
   options.cutoff = 0.6f;
-  EXPECT_EQ(endWith(), PathEnd::cutoff);
+  EXPECT_EQ(endOf(mirror, options, RayKind::reflection), PathEnd::cutoff);
+  options.cutoff = 0;
+  options.depth = 0;
+  EXPECT_EQ(endOf(mirror, options, RayKind::reflection), PathEnd::depth);
+
+  // What is not asked for has no end.
+  Material wall = diffuseMaterial(0.5f);
+  EXPECT_EQ(endOf(surfaceAndWall(wall), options, RayKind::indirect), PathEnd::none);
+  options.indirect = 1;
+  EXPECT_EQ(endOf(surfaceAndWall(wall), options, RayKind::indirect), PathEnd::depth);
+  const Material behind = wall;
+  wall.diffuseReflection = false;
+  EXPECT_EQ(endOf(surfaceAndWall(wall, behind), options, RayKind::indirect), PathEnd::none);
 }
 
 // Counts how paths end at the first surfaces that 81 pixels show.
 std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options, RayKind kind) {
-  Renderer renderer(scene, options);
-
-  const Film film = makeFilm(scene, options);
+  RayTrees trees(scene, options);
   std::map<PathEnd, int> ends;
   for (int i = 0; i < 81; ++i) {
-    const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, i % 9, i / 9);
+    const RayTree tree = trees.at(i % 9, i / 9);
     const RayNode& first = tree.nodes[0];
     if (first.triangle == kMiss) continue;
     ++ends[first.endOf(kind)];
-    const bool goesOn =
-        std::any_of(first.children.begin(), first.children.end(),
-                    [&](std::size_t child) { return tree.nodes[child].kind == kind; });
+    const bool goesOn = std::ranges::any_of(
+        first.children, [&](std::size_t child) { return tree.nodes[child].kind == kind; });
     EXPECT_EQ(goesOn, first.endOf(kind) == PathEnd::none);
   }
   return ends;
@@ -208,51 +202,25 @@ std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options, 
 
 // Roulette lets half of the paths go on: a mirror reflects half, and a wall is half white.
 TEST(RayTree, SaysThatRouletteEndsPaths) {
-  RenderOptions options;
-  options.size = ImageSize{9, 9};
-  options.roulette = 1;
-
-  auto mirrored = endsIn(surfaceAndWall(mirrorMaterial(0.5f)), options, RayKind::reflection);
-  EXPECT_EQ(mirrored.size(), 2u);
-  EXPECT_GT(mirrored[PathEnd::none], 10);
-  EXPECT_GT(mirrored[PathEnd::roulette], 10);
-
-  const Scene wall = surfaceAndWall(diffuseMaterial(0.5f));
+  RenderOptions options = sizedOptions(9, 9);
   options.indirect = 1;
-  auto scattered = endsIn(wall, options, RayKind::indirect);
-  EXPECT_EQ(scattered.size(), 2u);
-  EXPECT_GT(scattered[PathEnd::none], 10);
-  EXPECT_GT(scattered[PathEnd::roulette], 10);
+  options.roulette = 1;
+  const Scene mirror = surfaceAndWall(mirrorMaterial(0.5f)),
+              wall = surfaceAndWall(diffuseMaterial(0.5f));
+  for (auto ends :
+       {endsIn(mirror, options, RayKind::reflection), endsIn(wall, options, RayKind::indirect)}) {
+    EXPECT_EQ(ends.size(), 2u);
+    EXPECT_GT(ends[PathEnd::none], 10);
+    EXPECT_GT(ends[PathEnd::roulette], 10);
+  }
 
   options.roulette = 0;
-  EXPECT_EQ(endsIn(wall, options, RayKind::indirect).count(PathEnd::none), 1u);
+  EXPECT_TRUE(endsIn(wall, options, RayKind::indirect).contains(PathEnd::none));
 
   options.depth = 0;
-  scattered = endsIn(wall, options, RayKind::indirect);
-  EXPECT_EQ(scattered.size(), 1u);
-  EXPECT_EQ(scattered.count(PathEnd::depth), 1u);
-}
-
-TEST(RayTree, TellsOfNoEndOfWhatIsNotAskedFor) {
-  const auto endIn = [](const Scene& scene, const RenderOptions& options) {
-    Renderer renderer(scene, options);
-    const Film film = makeFilm(scene, options);
-    const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4);
-    return tree.nodes[0].endOf(RayKind::indirect);
-  };
-
-  RenderOptions options;
-  options.size = ImageSize{9, 9};
-  options.depth = 0;
-  Material wall = diffuseMaterial(0.5f);
-  EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::none);
-
-  options.indirect = 1;
-  EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::depth);
-
-  const Material other = wall;
-  wall.diffuseReflection = false;
-  EXPECT_EQ(endIn(surfaceAndWall(wall, other), options), PathEnd::none);
+  const auto ends = endsIn(wall, options, RayKind::indirect);
+  EXPECT_EQ(ends.size(), 1u);
+  EXPECT_TRUE(ends.contains(PathEnd::depth));
 }
 
 }  // namespace

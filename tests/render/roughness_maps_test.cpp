@@ -38,24 +38,6 @@ RenderOptions withSamples() {
 
 TEST(RoughnessMaps, KeepTheLawsOfMaps) { expectTheLawsOfMaps(roughTiles(), withSamples()); }
 
-TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
-  Scene scene = roughTiles();
-
-  // The green channel holds roughness.
-  for (Texture& t : scene.textures) {
-    t.shared = std::make_shared<SharedTexels>(
-        std::vector<std::uint32_t>(t.texelCount(), encodeDataTexel(0, 1, 0, 0)));
-  }
-
-  const Image ones = render(scene, withSamples()).image;
-  for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
-  const Image none = render(scene, withSamples()).image;
-  for (std::size_t i = 0; i < none.pixels.size(); ++i) {
-    const Rgb apart = abs(none.pixels[i] - ones.pixels[i]);
-    ASSERT_LE(maxComponent(apart), 1e-5f * (1 + maxComponent(none.pixels[i]))) << i;
-  }
-}
-
 TEST(RoughnessMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = roughTiles();
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;

@@ -8,8 +8,6 @@
 #include <tuple>
 #include <vector>
 
-#include "penumbra.h"
-#include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 
 namespace whit::test {
@@ -148,72 +146,41 @@ TEST(AmbientOcclusion, GoesWithAmbientLight) {
   }
 }
 
-TEST(Indirect, RouletteTracesLessAndNeedsThePathsNumbersAlone) {
-  const Scene scene = load("cornell");
+// Roulette draws its chances from the numbers of paths, also where no lobe is sampled.
+TEST(Roulette, NeedsTheNumbersOfPaths) {
   RenderOptions o = smallOptions();
-  EXPECT_FALSE(Renderer(scene, o).plan().features.has(Feature::streams));
-
-  o.depth = 5;
-  o.indirect = 3;
-  const std::uint64_t all = render(scene, o).stats.of(RayKind::indirect).rays;
-  o.roulette = 0.5f;
-  EXPECT_LT(render(scene, o).stats.of(RayKind::indirect).rays, all);
-
-  // Roulette draws its chances from the numbers of paths, also where no lobe is sampled.
-  o.indirect = 0;
-  EXPECT_TRUE(Renderer(scene, o).plan().features.has(Feature::streams));
-}
-
-// More samples come nearer to the picture of very many samples.
-TEST(GlossyNoise, FallsWithTheNumberOfSamples) {
-  const Scene scene = load("glossy");
-  RenderOptions o = smallOptions();
-  // The highlights of lights are rare and bright, and would dominate the error.
-  o.disable = EffectSet().with(Effect::lights);
-  o.glossy = 64;
-  o.spp = 4;
-  const Image settled = render(scene, o).image;
-
-  double previous = 1e9;
-  for (const int glossy : {1, 4, 16}) {
-    o.glossy = glossy;
-    const double error = compareImages(render(scene, o).image, settled).rmse;
-    // Four times as many random points halve the error; points of a lattice do no worse.
-    EXPECT_LT(error, 0.6 * previous) << glossy;
-    previous = error;
+  for (const float roulette : {0.0f, 0.5f}) {
+    o.roulette = roulette;
+    EXPECT_EQ(Renderer(load("cornell"), o).plan().features.has(Feature::streams), roulette > 0);
   }
 }
 
-// The pixels lie along x on a floor under a screen's edge. The samples of a pixel form one longer
-// lattice.
-TEST(SoftShadowsPicture, AnEdgeHasThePenumbraOfTheIntegral) {
-  const Penumbra p;
-  SceneBuilder builder;
-  builder.add(floorAt(0, 100, builder.add(diffuseMaterial(static_cast<float>(p.albedo)))));
+// More samples come nearer to the picture of very many samples. Random points fall as the root of
+// their number, and points of a lattice do no worse.
+TEST(Noise, FallsAsTheRootOfTheNumberOfSamples) {
+  for (const Sampled& effect : everySampledEffect()) {
+    if (effect.rays == RayKind::shadow) continue;  // edges differ more than their noise
+    const Scene scene = withWideLights(effect.scene);
+    const auto picture = [&](int samples) {
+      RenderOptions o;
+      o.size = ImageSize{48, 32};
+      o.spp = 4;
+      effect.set(o);
+      // The highlights of lights are rare and bright, and would dominate the error.
+      if (effect.effect == Effect::glossyReflection) o.disable = o.disable.with(Effect::lights);
+      o.*effect.samples = samples;
+      return render(scene, o).image;
+    };
 
-  const auto y = static_cast<float>(p.edge);
-  builder.add(
-      quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}, builder.add(blackMaterial())));
-
-  Light light = lightAt({0, static_cast<float>(p.height), 0}, static_cast<float>(p.intensity));
-  light.radius = static_cast<float>(p.radius);
-  builder.description.lights = {light};
-
-  Camera& camera = builder.lookFrom({0, 1.2f, 0});
-  camera.up = {0, 0, -1};
-  camera.orthographicHeight = 0.002f;
-  const Scene scene = builder.build();
-
-  RenderOptions o;
-  o.size = ImageSize{1001, 1};
-  o.lightSamples = 64;
-  o.spp = 16;
-  const Image image = render(scene, o).image;
-
-  // A pixel is 0.002 wide, so its shade is that of its middle.
-  for (int x = 0; x <= 1000; x += 50) {
-    const double at = (x - 500) * 0.002;
-    EXPECT_NEAR(double{image.at(x, 0).x}, p.radianceAt(at), 0.012 * p.unshadowedAt(at)) << at;
+    const Image settled = picture(64);
+    double previous = 1e9;
+    for (const int samples : {1, 4, 16}) {
+      const double error = compareImages(picture(samples), settled).rmse;
+      // If the error fell as the power of -0.45, that of 4 and 16 samples and of the settled
+      // picture would have this ratio.
+      EXPECT_LT(error, 0.585 * previous) << effect.name << " " << samples;
+      previous = error;
+    }
   }
 }
 

@@ -1,8 +1,7 @@
 // H61: laws that need no oracle, because floating point keeps them exactly.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
+#include "render/scaled_scene.h"
 #include "render/shipped_scene.h"
 #include "verify/scene_builder.h"
 
@@ -11,50 +10,10 @@ namespace {
 
 using namespace verify;
 
-Vec3f scaled(const Vec3f& v, int k) {
-  return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
-}
-
-// Multiplies lengths by 2^k and intensities by 4^k, so that irradiance stays the same.
-void scale(SceneDescription& d, int k) {
-  for (Object& object : d.objects) {
-    for (Mesh& mesh : object.meshes) {
-      for (Vec3f& p : mesh.positions) p = scaled(p, k);
-      for (Affine& s : mesh.spheres) s = Affine::scaling(Vec3d(std::ldexp(1.0, k))) * s;
-    }
-  }
-
-  for (Instance& instance : d.instances) instance.toWorld.p *= std::ldexp(1.0, k);
-  for (Light& light : d.lights) {
-    light.position = scaled(light.position, k);
-    light.intensity = scaled(light.intensity, 2 * k);
-    light.radius = std::ldexp(light.radius, k);
-  }
-
-  for (Camera& camera : d.cameras) {
-    camera.eye = scaled(camera.eye, k);
-    camera.at = scaled(camera.at, k);
-  }
-
-  // Absorption is a rate per length.
-  for (Material& m : d.materials) m.absorption = scaled(m.absorption, -k);
-  d.fog.density = scaled(d.fog.density, -k);
-}
-
 class Scaling : public testing::TestWithParam<std::string> {};
 
 TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
-  const SceneDescription loaded = described(GetParam());
-  const Scene original = repaired(loaded);
-  const Image expected = render(original, smallOptions()).image;
-
-  for (const int k : {-20, -7, 1, 20}) {
-    SceneDescription d = loaded;
-    scale(d, k);
-    const Scene scene = repaired(std::move(d));
-    EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "")
-        << GetParam() << " times 2^" << k;
-  }
+  expectBitsAtAnyScale(described(GetParam()), {-20, -7, 1, 20});
 }
 
 // Leaves are cut out of triangles before a floor and cast shadows on it.
@@ -81,20 +40,12 @@ SceneDescription masked() {
 }
 
 TEST(ScalingOfMasks, H61a_aPowerOfTwoLeavesEveryBit) {
-  const Image expected = render(repaired(masked()), smallOptions()).image;
-  for (const int k : {-25, -20, -17, 20}) {
-    SceneDescription d = masked();
-    scale(d, k);
-    const Scene scene = repaired(std::move(d));
-    EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "") << "2^" << k;
-  }
+  expectBitsAtAnyScale(masked(), {-25, -20, -17, 20});
 }
 
 TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
-  const SceneDescription loaded = described(GetParam());
-
-  const auto lit = [&](int k) {
-    SceneDescription d = loaded;
+  const auto lit = [](int k) {
+    SceneDescription d = described(GetParam());
     // Sky and ambient do not scale with the lights.
     d.sky = Sky{};
     d.ambient = Ambient{};
@@ -103,7 +54,7 @@ TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
     return render(repaired(std::move(d)), smallOptions()).image;
   };
 
-  Image expected = lit(0);
+  const Image expected = lit(0);
   for (const int k : {-60, 60}) {
     Image image = lit(k);
     for (Rgb& pixel : image.pixels) pixel = scaled(pixel, -k);

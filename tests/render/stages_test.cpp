@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "inspect/metrics.h"
+#include "inspect/path_divergence.h"
 #include "io/files.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
@@ -20,18 +21,35 @@ constexpr double kFlipMean = 0.01;
 // good. At depth 8 hardly any have; they are as many between any two ways of rounding.
 constexpr double kPartedInGlassPct = 1;
 
-void expectPictureAgrees(const std::string& name, int depth = smallOptions().depth,
-                         double limitPct = kPixelsGe2CodesPct) {
-  const Scene scene = load(name);
-  RenderOptions o = smallOptions();
-  o.depth = depth;
-  const ImageDifference d = differenceFromReference(scene, o);
-  std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
-              name.c_str(), d.pixelsGe2CodesPct, limitPct, d.flipMean, kFlipMean);
-
+void expectNearlyEqual(const ImageDifference& d, double limitPct) {
   EXPECT_LE(d.pixelsGe2CodesPct, limitPct);
   EXPECT_LE(d.flipMean, kFlipMean);
   EXPECT_EQ(d.nonFinite, 0u);
+}
+
+// Compares both modes at the default depth.
+void expectPicturesAgree(const std::string& name) {
+  const bool inGlass = name == "glass";
+  const Scene scene = load(name);
+  RenderOptions o = smallOptions();
+  o.depth = RenderOptions().depth;
+
+  Renderer renderer(scene, o);
+  auto [packets, reference, diverged, divergences] =
+      comparePaths(renderer, chooseCamera(scene, o), makeFilm(scene, o));
+  expectNearlyEqual(compareImages(packets, reference),
+                    inGlass ? kPartedInGlassPct : kPixelsGe2CodesPct);
+
+  // The effect of arithmetic alone is seen where the rays of both hit the same surfaces.
+  for (std::size_t i = 0; i < diverged.size(); ++i) {
+    if (diverged[i]) packets.pixels[i] = reference.pixels[i];
+  }
+
+  // Most pixels must remain to compare: 6 % diverge where paths are caught in glass. Curved
+  // surfaces of nested glass magnify rounding errors with every bounce, as long as the path hits
+  // the same triangles.
+  EXPECT_LT(divergences, diverged.size() / 10);
+  EXPECT_LE(compareImages(packets, reference).maxCode, inGlass ? 2 : 1);
 }
 
 class StagesOfScenes : public testing::TestWithParam<std::string> {
@@ -43,21 +61,19 @@ TEST_P(StagesOfScenes, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   expectStagesAgreeOnEveryTarget(load(GetParam()), smallOptions());
 }
 
-TEST_P(StagesOfScenes, PicturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
+TEST_P(StagesOfScenes, PicturesAgreeWithTheReference) { expectPicturesAgree(GetParam()); }
 
-TEST_P(StagesOfScenes, PicturesOfTheDefaultDepthAgreeWithTheReference) {
-  const bool glass = GetParam() == "glass";
-  expectPictureAgrees(GetParam(), RenderOptions().depth,
-                      glass ? kPartedInGlassPct : kPixelsGe2CodesPct);
+TEST(StagesInGlass, PicturesOfFewBouncesAgreeWithTheReference) {
+  expectNearlyEqual(differenceFromReference(load("glass"), smallOptions()), kPixelsGe2CodesPct);
 }
 
-TEST(LargeScenes, AtriumAgreesWithTheReference) { expectPictureAgrees("atrium"); }
+TEST(LargeScenes, AtriumAgreesWithTheReference) { expectPicturesAgree("atrium"); }
 
 TEST(LargeScenes, SponzaAgreesWithTheReference) {
   if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
     GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
   }
-  expectPictureAgrees("sponza-mirror");
+  expectPicturesAgree("sponza-mirror");
 }
 
 TEST_P(StagesOfScenes, TargetsAgreeWithEachOther) {
@@ -67,8 +83,6 @@ TEST_P(StagesOfScenes, TargetsAgreeWithEachOther) {
     RenderOptions o = smallOptions();
     o.simd = target;
     const ImageDifference d = compareImages(render(scene, o).image, expected);
-    std::printf("%s on %s: RMSE %.3g, %.4f %% off by two codes or more\n", GetParam().c_str(),
-                target.c_str(), d.rmse, d.pixelsGe2CodesPct);
     EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct) << target;
   }
 }

@@ -2,7 +2,6 @@
 // often.
 #include <gtest/gtest.h>
 
-#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/facetted_sphere.h"
 #include "render/pipeline_laws.h"
@@ -40,10 +39,7 @@ void expectAlike(const Image& a, const Image& b, const char* what) {
   EXPECT_LE(differences, kPixelsAtFacetEdges) << what;
 }
 
-Image referenceOf(const Scene& scene, const RenderOptions& o) {
-  return render(scene, o, false).image;
-}
-
+// The single ellipsoid is baked, and the two are instances.
 TEST(StretchedNormals, AreThoseOfAnInstance) {
   for (const bool terminator : {false, true}) {
     const Scene once = ellipsoid(false, terminator), twice = ellipsoid(true, terminator);
@@ -52,11 +48,10 @@ TEST(StretchedNormals, AreThoseOfAnInstance) {
 
     RenderOptions o = smallOptions();
     o.shading.terminator = terminator;
-    // The single ellipsoid is baked, and the two are instances.
-    const Image packets = render(once, o).image, reference = referenceOf(once, o);
-    expectAlike(packets, render(twice, o).image, "packets");
-    expectAlike(reference, referenceOf(twice, o), "reference");
-    expectAlike(packets, reference, "packets against reference");
+    const BothModes baked = renderBoth(once, o), placed = renderBoth(twice, o);
+    expectAlike(baked.packets.image, placed.packets.image, "packets");
+    expectAlike(baked.reference.image, placed.reference.image, "reference");
+    expectAlike(baked.packets.image, baked.reference.image, "packets against reference");
   }
 }
 

@@ -16,7 +16,7 @@ namespace whit::test {
 namespace {
 
 Texture numbered(int width, int height) {
-  std::vector<std::uint32_t> texels(static_cast<std::size_t>(width * height));
+  std::vector<std::uint32_t> texels(width * height);
   std::iota(texels.begin(), texels.end(), 1u);
   return makeTexture(TexelFormat::color, width, height, texels);
 }
@@ -31,9 +31,8 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
 
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const auto& [width, height] : sizes) {
-      Texture texture = numbered(width, height);
-      texture.wrapU = wrap;
-      floor.diffuseMap = builder.add(texture);
+      floor.diffuseMap = builder.add(numbered(width, height));
+      builder.description.textures.back().wrapU = wrap;
       builder.add(floorAt(0, 1, builder.add(floor)));
     }
   }
@@ -57,8 +56,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
           const int column = wrappedTexel(x - 1 + stepX, record.width, texture.wrapU);
           const int row = wrappedTexel(y - 1 + stepY, record.height, texture.wrapV);
           const int place = first + stepY * 8 + stepX;
-          EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(place)],
-                    rows.texel(column, row))
+          EXPECT_EQ(tables.texels[record.firstTexel + place], rows.texel(column, row))
               << "texture " << i << ", footprint " << x << "," << y << " step " << stepX << stepY;
         }
       }
@@ -76,16 +74,25 @@ Texture lateTexture(int& made) {
   return texture;
 }
 
-TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
-  int colors = 0, masks = 0;
+// A floor with these maps, which is masked.
+Scene maskedFloor(const std::vector<Texture>& maps) {
   SceneBuilder builder;
+  for (const Texture& map : maps) builder.add(map);
   Material floor = diffuseMaterial(0.5f);
-  floor.diffuseMap = builder.add(lateTexture(colors));
-  floor.alphaMap = builder.add(lateTexture(masks));
+  floor.diffuseMap = 0;
+  floor.alphaMap = static_cast<std::int32_t>(maps.size()) - 1;
   floor.alphaCutoff = 0.5f;
   builder.add(floorAt(0, 1, builder.add(floor)));
-  const Scene scene = builder.build();
+  return builder.build();
+}
 
+std::uint32_t firstTexel(const ShadingTables& tables) {
+  return tables.texels[tables.textures.at(0).firstTexel];
+}
+
+TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
+  int colors = 0, masks = 0;
+  const Scene scene = maskedFloor({lateTexture(colors), lateTexture(masks)});
   buildTables(scene, EffectSet::all().without(Effect::textures), {});
   EXPECT_EQ(colors + masks, 0);
 
@@ -95,33 +102,25 @@ TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
   EXPECT_EQ(masks, 1);
   EXPECT_EQ(scene.memoryBytes(), before + 2 * sizeof(std::uint32_t)) << "the texels of the mask";
 
-  const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
+  EXPECT_EQ(firstTexel(buildTables(scene, EffectSet::all(), {})), 0xffffffffu)
+      << "a row beyond the top";
   EXPECT_EQ(colors, 1);
   EXPECT_EQ(masks, 1) << "masks are kept";
-  EXPECT_EQ(tables.texels[tables.textures.at(0).firstTexel], 0xffffffffu) << "a row beyond the top";
 }
 
 TEST(TextureTables, TexelsThatAMaskKeepsAreNotMadeAgain) {
   int made = 0;
-  SceneBuilder builder;
-  Material floor = diffuseMaterial(0.5f);
-  floor.diffuseMap = floor.alphaMap = builder.add(lateTexture(made));
-  floor.alphaCutoff = 0.5f;
-  builder.add(floorAt(0, 1, builder.add(floor)));
-  const Scene scene = builder.build();
-
+  const Scene scene = maskedFloor({lateTexture(made)});
   const RayQueries queries(scene, 1, nullptr);
-  const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
-
+  EXPECT_EQ(firstTexel(buildTables(scene, EffectSet::all(), {})), 0xffffffffu);
   EXPECT_EQ(made, 1);
-  EXPECT_EQ(tables.texels[tables.textures.at(0).firstTexel], 0xffffffffu);
 }
 
 // A floor has one row of texels that grow brighter from left to right.
 Scene paintedOver(int width) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
-  std::vector<std::uint32_t> texels(static_cast<std::size_t>(width));
+  std::vector<std::uint32_t> texels(width);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/accel.h"
+#include "set_columns.h"
 #include "shipped_scene.h"
 #include "stages/columns.h"
 
@@ -44,11 +45,8 @@ class UsedStack : public testing::TestWithParam<int> {
   void aim(const Columns& rays) {
     const Vec3f middle = 0.5f * (scene_.lower + scene_.upper), size = scene_.upper - scene_.lower;
     for (std::size_t i = 0; i < kRays; ++i) {
-      rays.org.x[i] = middle.x + 0.01f * size.x * static_cast<float>(i);
-      rays.org.y[i] = scene_.upper.y + size.y;
-      rays.org.z[i] = middle.z;
-      rays.dir.x[i] = rays.dir.z[i] = 0;
-      rays.dir.y[i] = 1;
+      const float aside = 0.01f * size.x * static_cast<float>(i);
+      test::setRay(rays, i, {middle.x + aside, scene_.upper.y + size.y, middle.z}, {0, 1, 0});
     }
   }
 
@@ -56,8 +54,8 @@ class UsedStack : public testing::TestWithParam<int> {
   const Accel accel_;
 
   // Makes a chunk that has all rays in one segment.
-  Chunk chunkOf(const Accel& accel, bool coherent) {
-    constants_.accel = &accel;
+  Chunk chunkOf(bool coherent) {
+    constants_.accel = &accel_;
     Chunk chunk;
     chunk.frame = &constants_;
     chunk.meter = &meter_;
@@ -80,15 +78,15 @@ class UsedStack : public testing::TestWithParam<int> {
 
 TEST_P(UsedStack, OcclusionReturns) {
   aim(*shadows_);
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::uint32_t i = 0; i < kRays; ++i) {
     shadows_->tFar[i] = 10 * (scene_.upper.y - scene_.lower.y);
-    shadows_->slot[i] = static_cast<std::uint32_t>(i);
+    shadows_->slot[i] = i;
   }
 
   for (const bool coherent : {true, false}) {
     std::vector<float> visible(kRays, -1.0f);
     useStack();
-    Chunk chunk = chunkOf(accel_, coherent);
+    Chunk chunk = chunkOf(coherent);
     chunk.unshadowed.visible = visible.data();
     checkShadows(chunk);
     EXPECT_EQ(visible, std::vector<float>(kRays, 1.0f));
@@ -99,7 +97,7 @@ TEST_P(UsedStack, IntersectionReturns) {
   aim(*rays_);
   for (const bool coherent : {true, false}) {
     useStack();
-    Chunk chunk = chunkOf(accel_, coherent);
+    Chunk chunk = chunkOf(coherent);
     findHits(chunk);
     for (std::size_t i = 0; i < kRays; ++i) EXPECT_EQ(hits_->triangle[i], kMiss) << i;
   }

@@ -7,20 +7,6 @@ namespace {
 
 constexpr double kUnitRoundOff = 0x1p-53;
 
-TEST(Affine, RotationIsRightHanded) {
-  const Vec3d p = Affine::rotation({0, 3, 0}, 90).point({0, 0, 1});
-  EXPECT_NEAR(p.x, 1, 4 * kUnitRoundOff);
-  EXPECT_NEAR(p.y, 0, 4 * kUnitRoundOff);
-  EXPECT_NEAR(p.z, 0, 4 * kUnitRoundOff);
-}
-
-TEST(Affine, ProductAppliesTheRightFactorFirst) {
-  const Affine scale = Affine::scaling({2, 3, 4}), move = Affine::translation({1, 1, 1});
-  EXPECT_EQ((scale * move).point({1, 0, 0}), (Vec3d{4, 3, 4}));
-  EXPECT_EQ((move * scale).point({1, 0, 0}), (Vec3d{3, 1, 1}));
-  EXPECT_EQ((move * scale).vector({1, 0, 0}), (Vec3d{2, 0, 0}));
-}
-
 // Hard case H77. An entry of a product of two rotations takes 3 products and 2 sums, gamma(3), and
 // the entries have a few roundings of sine, cosine and axis: gamma(8) a step covers both.
 TEST(Affine, HundredNestedRotationsUndone) {

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "has_text.h"
+#include "unit/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -26,7 +25,7 @@ TEST(EffectSet, AllHasEveryEffectAndNoOtherBit) {
 
 TEST(ParseEffects, EveryNameStandsForItsBit) {
   for (int i = 0; i < kEffectCount; ++i) {
-    const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
+    const std::string name(kEffectNames[i].name);
     EXPECT_EQ(parseEffects(name), EffectSet().with(static_cast<Effect>(i))) << name;
   }
 }
@@ -38,14 +37,8 @@ TEST(ParseEffects, ListsMayBeEmptyAndHaveGaps) {
 }
 
 TEST(ParseEffects, UnknownNameIsAUsageErrorWithTheNearestOne) {
-  try {
-    parseEffects("mirror,shadow");
-    FAIL() << "expected an error";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.status(), ExitStatus::usage);
-    EXPECT_TRUE(hasText(std::string(e.what()), "'shadow'")) << e.what();
-    EXPECT_TRUE(hasText(std::string(e.what()), "'shadows'")) << e.what();
-  }
+  test::expectError(ExitStatus::usage, {"'shadow'", "'shadows'"},
+                    [] { parseEffects("mirror,shadow"); });
 }
 
 }  // namespace

@@ -5,56 +5,62 @@
 namespace whit {
 namespace {
 
-TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
-  const std::vector<std::string> names{"sphere", "spiral", "sponge"};
-  EXPECT_EQ(nearestName("sphere", names), "sphere");
-  EXPECT_EQ(nearestName("spere", names), "sphere");
-  EXPECT_EQ(nearestName("spiiral", names), "spiral");
-  EXPECT_EQ(nearestName("sponce", names), "sponge");
+struct Typed {
+  const char* text;
+  std::vector<std::string> names;
+  const char* meant;
+};
 
-  // The other name is two substitutions away.
-  EXPECT_EQ(nearestName("abc", {"axx", "abcd"}), "abcd");
-  EXPECT_EQ(nearestName("abcd", {"axxd", "abc"}), "abc");
+void expectMeant(const std::vector<Typed>& rows) {
+  for (const Typed& row : rows) EXPECT_EQ(nearestName(row.text, row.names), row.meant) << row.text;
 }
 
-TEST(NearestName, TheFirstOfEquallyNearOnes) { EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax"); }
-
-TEST(NearestName, NothingToChooseFrom) {
-  EXPECT_EQ(nearestName("x", {}), "");
-  EXPECT_EQ(didYouMean("x", {}), "");
+TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
+  const std::vector<std::string> names{"sphere", "spiral", "sponge"};
+  expectMeant({{"sphere", names, "sphere"},
+               {"spere", names, "sphere"},
+               {"spiiral", names, "spiral"},
+               {"sponce", names, "sponge"},
+               // The other name is two substitutions away.
+               {"abc", {"axx", "abcd"}, "abcd"},
+               {"abcd", {"axxd", "abc"}, "abc"},
+               // Of equally near ones it is the first.
+               {"bx", {"ax", "cx"}, "ax"}});
 }
 
 TEST(NearestName, OnlyANearOneCanBeMeant) {
-  EXPECT_EQ(nearestName("at", {"att", "fov"}), "att");
-  EXPECT_EQ(nearestName("shape", {"shaep"}), "shaep");
-  EXPECT_EQ(nearestName("at", {"up"}), "");
-  EXPECT_EQ(nearestName("sphere", {"spiral"}), "");
-  EXPECT_EQ(nearestName("helmet.glb", {"merge", "render"}), "");
+  expectMeant({{"x", {}, ""},
+               {"at", {"att", "fov"}, "att"},
+               {"shape", {"shaep"}, "shaep"},
+               {"at", {"up"}, ""},
+               {"sphere", {"spiral"}, ""},
+               {"helmet.glb", {"merge", "render"}, ""}});
   EXPECT_EQ(didYouMean("rendre", {"merge", "render"}), "; did you mean 'render'?");
+  EXPECT_EQ(didYouMean("x", {}), "");
 }
 
 TEST(NearestName, ShortWordsNeedToBeNearer) {
-  EXPECT_EQ(nearestName("--az", {"--at", "--up"}), "--at");
-  EXPECT_EQ(nearestName("--gh", {"--at", "--up"}), "");
-  EXPECT_EQ(nearestName("--dpeth", {"--depth"}), "--depth");
+  expectMeant({{"--az", {"--at", "--up"}, "--at"},
+               {"--gh", {"--at", "--up"}, ""},
+               {"--dpeth", {"--depth"}, "--depth"}});
 }
 
 TEST(NearestName, ABeginningStandsForItsOnlyName) {
-  EXPECT_EQ(nearestName("ref", {"packets", "reference"}), "reference");
-  EXPECT_EQ(nearestName("--amb", {"--ambient", "--ambient-samples"}), "");  // two begin so
-  EXPECT_EQ(nearestName("re", {"packets", "reference"}), "");
+  expectMeant({{"ref", {"packets", "reference"}, "reference"},
+               {"--amb", {"--ambient", "--ambient-samples"}, ""},  // two begin so
+               {"re", {"packets", "reference"}, ""}});
 }
 
 TEST(NearestName, WordsOfOtherProgramsLeadToOurs) {
   const std::vector<std::string> names{"--spp",     "--size", "--ambient-samples", "--indirect",
                                        "--threads", "--at",   "--sample"};
-  EXPECT_EQ(nearestName("--samples", names), "--spp");
-  EXPECT_EQ(nearestName("--width", names), "--size");
-  EXPECT_EQ(nearestName("--ao", names), "--ambient-samples");
-  EXPECT_EQ(nearestName("--gi", names), "--indirect");
-  EXPECT_EQ(nearestName("-j", names), "--threads");
-  EXPECT_EQ(nearestName("samples", {"spp"}), "spp");
-  EXPECT_EQ(nearestName("--samples", {"--sample"}), "--sample");  // there is no --spp
+  expectMeant({{"--samples", names, "--spp"},
+               {"--width", names, "--size"},
+               {"--ao", names, "--ambient-samples"},
+               {"--gi", names, "--indirect"},
+               {"-j", names, "--threads"},
+               {"samples", {"spp"}, "spp"},
+               {"--samples", {"--sample"}, "--sample"}});  // there is no --spp
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
-#include "has_text.h"
+#include "unit/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -49,20 +48,20 @@ TEST(OptionTable, CheapestWordsAreValues) {
 }
 
 TEST(OptionTable, SaysWhatHasToBeMadeAnew) {
-  const auto needed = [](const std::vector<std::string>& words) {
+  using Words = std::vector<std::string>;
+  for (const auto& [words, rebuild] :
+       {std::pair{Words(), Rebuild::nothing},
+        {{"size", "3x4", "fov", "30", "mode", "reference"}, Rebuild::nothing},
+        {{"spp", "1"}, Rebuild::nothing},
+        {{"spp", "2"}, Rebuild::frame},
+        {{"bend", "off", "size", "3x4"}, Rebuild::frame},
+        {{"disable", "shadows", "spp", "2"}, Rebuild::tables},
+        {{"disable", "shadows", "tile", "8"}, Rebuild::workers},
+        {{"robust", "off", "threads", "3"}, Rebuild::acceleration}}) {
     RenderOptions options;
     for (std::size_t i = 0; i < words.size(); i += 2) setOption(options, words[i], words[i + 1]);
-    return rebuildNeeded(RenderOptions(), options);
-  };
-
-  EXPECT_EQ(needed({}), Rebuild::nothing);
-  EXPECT_EQ(needed({"size", "3x4", "fov", "30", "mode", "reference"}), Rebuild::nothing);
-  EXPECT_EQ(needed({"spp", "1"}), Rebuild::nothing);
-  EXPECT_EQ(needed({"spp", "2"}), Rebuild::frame);
-  EXPECT_EQ(needed({"bend", "off", "size", "3x4"}), Rebuild::frame);
-  EXPECT_EQ(needed({"disable", "shadows", "spp", "2"}), Rebuild::tables);
-  EXPECT_EQ(needed({"disable", "shadows", "tile", "8"}), Rebuild::workers);
-  EXPECT_EQ(needed({"robust", "off", "threads", "3"}), Rebuild::acceleration);
+    EXPECT_EQ(rebuildNeeded(RenderOptions(), options), rebuild) << testing::PrintToString(words);
+  }
 }
 
 TEST(OptionTable, TakesOverNoMoreThanWasAskedFor) {
@@ -81,13 +80,8 @@ TEST(OptionTable, TakesOverNoMoreThanWasAskedFor) {
 TEST(OptionTable, UnknownNamesNameTheNearest) {
   RenderOptions options;
   EXPECT_EQ(optionText(options, "offset"), "bound");
-  try {
-    setOption(options, "dept", "3");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::usage);
-    EXPECT_TRUE(hasText(std::string(error.what()), "did you mean 'depth'?"));
-  }
+  test::expectError(ExitStatus::usage, {"did you mean 'depth'?"},
+                    [&] { setOption(options, "dept", "3"); });
 }
 
 }  // namespace

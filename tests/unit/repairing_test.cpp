@@ -11,13 +11,7 @@
 namespace whit {
 namespace {
 
-using test::expectError;
-using test::finalized;
-using test::normalOf;
-using test::sceneOf;
-using test::square;
-using test::warned;
-using test::whiteTexture;
+using namespace test;
 
 const std::string kDegenerate = "degenerate triangle dropped";
 const std::string kBadCorner = "triangle with a non-finite or enormous corner dropped";
@@ -42,10 +36,13 @@ TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   add({1e-30f, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e-30f});  // squares vanish in float: stays
 
   Warnings warnings;
-  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  const Scene scene = finalized(sceneOf(mesh), &warnings);
   EXPECT_EQ(scene.triangles.size(), 2u + 3);
   EXPECT_EQ(warned(warnings, kDegenerate), 4u);
   EXPECT_EQ(warnings.entries().at(kDegenerate).first, "mesh 'square', triangle 2");
+  Warnings strict(true);
+  expectError(ExitStatus::badScene, {"mesh 'square', triangle 2", kDegenerate},
+              [&] { finalized(sceneOf(mesh), &strict); });
   EXPECT_EQ(scene.upper, (Vec3f{1, 1, 9}));
 }
 
@@ -55,11 +52,11 @@ TEST(Repairing, MeshesOfWhichNothingIsLeftAreCounted) {
   Warnings some, all;
 
   mesh.triangles = {{0, 0, 1}, {0, 1, 2}};
-  Scene::finalize(sceneOf(mesh), some);
+  finalized(sceneOf(mesh), &some);
   EXPECT_EQ(warned(some, kNothing), 0u);
 
   mesh.triangles = {{0, 0, 1}, {0, 1, 9}};
-  Scene::finalize(sceneOf(mesh), all);
+  finalized(sceneOf(mesh), &all);
   EXPECT_EQ(warned(all, kNothing), 1u);
 }
 
@@ -67,16 +64,17 @@ TEST(Repairing, MeshesOfWhichNothingIsLeftAreCounted) {
 TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
   for (const bool glass : {false, true}) {
     Mesh mesh = square();
-    const std::vector<Vec3f> own = mesh.positions;
-    for (Vec3f p : own) mesh.positions.push_back({p.x == 0 ? -0.0f : p.x, p.y, p.z});
+    for (const Vec3f& p : square().positions) {
+      mesh.positions.push_back({p.x == 0 ? -0.0f : p.x, p.y, p.z});
+    }
     mesh.triangles.push_back({1, 2, 0});  // the first, turned
     mesh.triangles.push_back({6, 5, 4});  // the first, reversed, with vertices of its own
     mesh.triangles.push_back({0, 1, 3});  // shares two corners with each
 
     SceneDescription description = sceneOf(mesh);
-    for (Material& m : description.materials) m.transmission = glass ? Rgb{1, 1, 1} : Rgb{0, 0, 0};
+    description.materials[0].transmission = Rgb(glass ? 1.0f : 0.0f);
     Warnings warnings;
-    const Scene scene = Scene::finalize(std::move(description), warnings);
+    const Scene scene = finalized(std::move(description), &warnings);
 
     EXPECT_EQ(scene.triangles.size(), 2u + (glass ? 3 : 1));
     EXPECT_EQ(warned(warnings, "triangle in the place of another of its material dropped"),
@@ -92,7 +90,7 @@ TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
     mesh.positions[3].y = bad;  // of the second triangle only
 
     Warnings warnings;
-    const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+    const Scene scene = finalized(sceneOf(mesh), &warnings);
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(warned(warnings, kBadCorner), 1u);
     EXPECT_EQ(scene.lower, (Vec3f{0, 0, 0}));
@@ -109,21 +107,11 @@ TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({0xffffffffu, 1, 2});
   SceneDescription d = sceneOf(mesh);
-  Mesh other = square();  // its vertices must not be reached
-  for (Vec3f& p : other.positions) p.z = 1;
-  d.objects[0].meshes.push_back(other);
+  d.objects[0].meshes.push_back(above(square()));  // its vertices must not be reached
 
   Warnings warnings;
-  EXPECT_EQ(Scene::finalize(std::move(d), warnings).triangles.size(), 4u);
+  EXPECT_EQ(finalized(std::move(d), &warnings).triangles.size(), 4u);
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
-}
-
-TEST(Repairing, StrictRefusesDroppedTriangles) {
-  Mesh mesh = square();
-  mesh.triangles.push_back({1, 1, 2});
-  Warnings strict(true);
-  expectError(ExitStatus::badScene, {"mesh 'square', triangle 2", kDegenerate},
-              [&] { Scene::finalize(sceneOf(mesh), strict); });
 }
 
 TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
@@ -131,7 +119,7 @@ TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
   mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
 
   Warnings warnings;
-  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  const Scene scene = finalized(sceneOf(mesh), &warnings);
   EXPECT_EQ(scene.triangles[0].uv[0], 0.25f);
   EXPECT_EQ(scene.triangles[0].uv[1], 0);
   EXPECT_EQ(scene.triangles[1].uv[4], 0);
@@ -145,38 +133,25 @@ TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
   Mesh mesh = square();
   mesh.uvs = {{1000000.25f, -20.5f}, {1000001.5f, -17}, {1000000, -30}, {1000002, -18}};
 
-  const auto firstUv = [&](Wrap wrapU, Wrap wrapV) {
+  using Uv = std::vector<float>;
+  const auto firstUv = [&](Wrap wrapU, Wrap wrapV = Wrap::repeat) {
     SceneDescription d = sceneOf(mesh);
-    d.textures.push_back(whiteTexture(TexelFormat::color));
+    // Another texture of the material repeats.
+    d.textures = {whiteTexture(TexelFormat::color), whiteTexture(TexelFormat::data)};
     d.textures[0].wrapU = wrapU;
     d.textures[0].wrapV = wrapV;
     d.materials[0].diffuseMap = 0;
+    d.materials[0].alphaMap = 1;
     const Scene scene = finalized(std::move(d));
-    return std::vector<float>(scene.triangles[0].uv, scene.triangles[0].uv + 6);
+    return Uv(scene.triangles[0].uv, scene.triangles[0].uv + 6);
   };
 
-  using Uv = std::vector<float>;
-  EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{0.25f, 9.5f, 1.5f, 13, 0, 0}));
-  EXPECT_EQ(firstUv(Wrap::clamp, Wrap::repeat),
-            (Uv{1000000.25f, 9.5f, 1000001.5f, 13, 1000000, 0}));
+  EXPECT_EQ(firstUv(Wrap::repeat), (Uv{0.25f, 9.5f, 1.5f, 13, 0, 0}));
+  EXPECT_EQ(firstUv(Wrap::clamp), (Uv{1000000.25f, 9.5f, 1000001.5f, 13, 1000000, 0}));
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::mirror), (Uv{0.25f, -20.5f, 1.5f, -17, 0, -30}));
 
   mesh.uvs[1] = {16, -16};  // one corner is near 0: nothing is moved
-  EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
-}
-
-TEST(Repairing, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
-  Mesh mesh = square();
-  mesh.uvs.assign(4, {100.5f, 100.5f});
-  SceneDescription d = sceneOf(mesh);
-  d.textures = {whiteTexture(TexelFormat::color), whiteTexture(TexelFormat::data)};
-  d.textures[0].wrapU = Wrap::clamp;
-  d.materials[0].diffuseMap = 0;
-  d.materials[0].alphaMap = 1;
-
-  const Scene scene = finalized(std::move(d));
-  EXPECT_EQ(scene.triangles[0].uv[0], 100.5f);
-  EXPECT_EQ(scene.triangles[0].uv[1], 0.5f);
+  EXPECT_EQ(firstUv(Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
 }
 
 // H34: unusable normals are replaced by the face's.
@@ -184,7 +159,7 @@ TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();
   mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
   Warnings warnings;
-  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  const Scene scene = finalized(sceneOf(mesh), &warnings);
 
   ASSERT_EQ(scene.normals.size(), 2u);
   EXPECT_EQ(normalOf(scene.normals[0], 0), (Vec3f{0, 0, 1}));
@@ -195,16 +170,14 @@ TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
 }
 
 TEST(Repairing, FlatNormalsAreNotKept) {
-  EXPECT_TRUE(finalized(sceneOf(square())).normals.empty());
   Mesh flat = square();
   flat.normals.assign(4, {0, 0, 7});
   EXPECT_TRUE(finalized(sceneOf(flat)).normals.empty());
 }
 
 TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
-  Mesh smooth = square();
+  Mesh smooth = above(square());
   smooth.normals.assign(4, {1, 0, 1});
-  for (Vec3f& p : smooth.positions) p.z = 1;
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(smooth);
 
@@ -221,17 +194,18 @@ TEST(Repairing, GarbageNeverReachesTheTables) {
   const auto anyFloat = [&] {
     return word() % 4 ? std::bit_cast<float>(word()) : static_cast<float>(word() % 5);
   };
+  const auto anyVec = [&] { return Vec3f{anyFloat(), anyFloat(), anyFloat()}; };
 
   std::size_t kept = 0;
   for (int round = 0; round < 1000; ++round) {
+    SCOPED_TRACE(round);
     Mesh mesh;
-    const std::size_t vertices = word() % 40;
-    for (std::size_t i = 0; i < vertices; ++i) {
-      mesh.positions.push_back({anyFloat(), anyFloat(), anyFloat()});
-      mesh.normals.push_back({anyFloat(), anyFloat(), anyFloat()});
+    for (std::uint32_t i = word() % 40; i-- > 0;) {
+      mesh.positions.push_back(anyVec());
+      mesh.normals.push_back(anyVec());
       mesh.uvs.push_back({anyFloat(), anyFloat()});
     }
-    for (std::size_t i = word() % 60; i-- > 0;) {
+    for (std::uint32_t i = word() % 60; i-- > 0;) {
       mesh.triangles.push_back({word() % 41, word() % 41, word() % 41});
     }
 
@@ -243,14 +217,14 @@ TEST(Repairing, GarbageNeverReachesTheTables) {
 
     ASSERT_TRUE(isFinite(scene.lower) && isFinite(scene.upper));
     for (const TriangleRecord& t : scene.triangles) {
-      for (const float x : t.position) ASSERT_LE(std::abs(x), 1.844e18f) << "round " << round;
-      for (const float x : t.uv) ASSERT_TRUE(std::isfinite(x)) << "round " << round;
+      for (const float x : t.position) ASSERT_LE(std::abs(x), 1.844e18f);
+      for (const float x : t.uv) ASSERT_TRUE(std::isfinite(x));
     }
 
     for (const NormalRecord& n : scene.normals) {
       for (int i = 0; i < 3; ++i) {
         // Each of three components is rounded to float by half an ulp.
-        ASSERT_NEAR(length(Vec3d(normalOf(n, i))), 1, 2e-7) << "round " << round;
+        ASSERT_NEAR(length(Vec3d(normalOf(n, i))), 1, 2e-7);
       }
     }
 

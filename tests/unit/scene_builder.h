@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bake/scene.h"
 #include "core/error.h"
@@ -33,9 +36,23 @@ inline SceneDescription sceneOf(Mesh mesh) {
   return d;
 }
 
-inline Scene finalized(SceneDescription d) {
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+// Returns a scene like sceneOf() that is placed by this transform.
+inline SceneDescription placedAs(Mesh mesh, const Affine& toWorld) {
+  SceneDescription d = sceneOf(std::move(mesh));
+  d.instances[0].toWorld = toWorld;
+  return d;
+}
+
+// Returns the mesh higher up by 1.
+inline Mesh above(Mesh mesh) {
+  for (Vec3f& p : mesh.positions) p.z += 1;
+  return mesh;
+}
+
+// Collects what was repaired in `warnings`, if they are given.
+inline Scene finalized(SceneDescription d, Warnings* warnings = nullptr) {
+  Warnings own;
+  return Scene::finalize(std::move(d), warnings ? *warnings : own);
 }
 
 inline Texture whiteTexture(TexelFormat format) {
@@ -56,6 +73,21 @@ inline Vec3d faceOf(const TriangleRecord& t) {
 }
 inline Vec3f normalOf(const NormalRecord& n, int i) {
   return {n.normal[3 * i], n.normal[3 * i + 1], n.normal[3 * i + 2]};
+}
+
+// Returns how far the farthest of the points lies from the middle of the picture, in halves of its
+// width or height. The points must lie before the camera.
+inline double farthestInPicture(const CameraFrame& frame, const std::vector<Vec3d>& points) {
+  double farthest = 0;
+  for (const Vec3d& point : points) {
+    const Vec3d way = point - frame.eye;
+    const double depth = dot(way, frame.forward);
+    EXPECT_GT(depth, 0);
+    const double x = dot(way, frame.right) / dot(frame.right, frame.right) / depth;
+    const double y = dot(way, frame.up) / dot(frame.up, frame.up) / depth;
+    farthest = std::max({farthest, 2 * std::abs(x) / frame.width, 2 * std::abs(y) / frame.height});
+  }
+  return farthest;
 }
 
 // Returns how often something of this kind was repaired.

@@ -1,10 +1,10 @@
+// The sky along a direction, blurred by a lobe, and as ambient light. oracle/ has gradients and
+// turned images as well.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <vector>
 
-#include "core/affine.h"
 #include "pi.h"
 #include "scene/light.h"
 
@@ -50,6 +50,7 @@ TEST(SkyRadiance, NoneAndColor) {
   Sky sky;
   sky.zenith = {1, 2, 3};
   EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), RgbD{});
+  EXPECT_EQ(ambientFromSky(sky, 1).up, Rgb{});
   sky.kind = Sky::Kind::color;
   sky.scale = 2;
   EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), (RgbD{2, 4, 6}));
@@ -65,55 +66,35 @@ TEST(SkyRadiance, GradientIsLinearInTheSineOfTheElevation) {
   EXPECT_EQ(skyRadiance(sky, {0.8, -0.5, 0}), (RgbD{1.5, 1, 1}));
 }
 
-TEST(SkyRadiance, TexelCentersAreExactAndInTheStatedOrder) {
-  const Sky sky = imageSky(8, 4, [](int x, int y) { return 1 + x + 10 * y; });
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 8; ++x) {
-      const RgbD c = skyRadiance(sky, direction((x + 0.5) / 8, (y + 0.5) / 4));
-      EXPECT_NEAR(c.x, 1 + x + 10 * y, 1e-12);
-      EXPECT_NEAR(c.z, 3 * c.x, 1e-12);
-    }
+struct Seen {
+  Vec3d direction;
+  double radiance;
+};
+
+void expectSeen(const Sky& sky, const std::vector<Seen>& rows) {
+  for (const auto& [d, radiance] : rows) {
+    EXPECT_NEAR(skyRadiance(sky, d).x, radiance, 1e-12) << d.x << " " << d.y << " " << d.z;
   }
 }
 
 TEST(SkyRadiance, ColumnsBeginAtMinusZAndRunTowardsPlusX) {
-  const Sky sky = imageSky(4, 1, [](int x, int) { return x; });
   // Cardinal directions lie between two columns and show their mean, also across the seam at -z.
-  EXPECT_NEAR(skyRadiance(sky, {0, 0, -1}).x, 1.5, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, {1, 0, 0}).x, 0.5, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, {0, 0, 1}).x, 1.5, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, {-1, 0, 0}).x, 2.5, 1e-12);
-
-  // These directions are a quarter of a column before and behind the seam, between columns 3 and 0.
-  EXPECT_NEAR(skyRadiance(sky, direction(0.0625, 0.5)).x, 0.75, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, direction(-0.0625, 0.5)).x, 2.25, 1e-12);
+  // The last two are a quarter of a column before and behind the seam, between columns 3 and 0.
+  expectSeen(imageSky(4, 1, [](int x, int) { return x; }), {{{0, 0, -1}, 1.5},
+                                                            {{1, 0, 0}, 0.5},
+                                                            {{0, 0, 1}, 1.5},
+                                                            {{-1, 0, 0}, 2.5},
+                                                            {direction(0.0625, 0.5), 0.75},
+                                                            {direction(-0.0625, 0.5), 2.25}});
 }
 
 TEST(SkyRadiance, PolesAreClamped) {
-  const Sky sky = imageSky(4, 2, [](int, int y) { return y == 0 ? 5 : 7; });
-  EXPECT_NEAR(skyRadiance(sky, {0, 1, 0}).x, 5, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, {0, -1, 0}).x, 7, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.1)).x, 5, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.5)).x, 6, 1e-12);
-  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.95)).x, 7, 1e-12);
-}
-
-TEST(SkyRadiance, RotationTurnsThePictureAboutUp) {
-  const Sky still = imageSky(16, 8, [](int x, int y) { return x * x + 3 * y; });
-  for (const double degrees : {90.0, -37.0, 400.0}) {
-    Sky turned = still;
-    turned.rotation = static_cast<float>(degrees);
-    const Affine turn = Affine::rotation({0, 1, 0}, degrees);
-    for (int i = 0; i < 50; ++i) {
-      const Vec3d d = direction(0.37 * i, (i + 0.5) / 50);
-      // The contrast is 225 a texel of 1/16 turn, and turns are known to 1e-15.
-      EXPECT_NEAR(skyRadiance(turned, turn.vector(d)).x, skyRadiance(still, d).x, 1e-9);
-    }
-  }
-
-  Sky turned = still;
-  turned.rotation = 90;
-  EXPECT_NEAR(skyRadiance(turned, {-1, 0, 0}).x, skyRadiance(still, {0, 0, -1}).x, 1e-9);
+  expectSeen(imageSky(4, 2, [](int, int y) { return y == 0 ? 5 : 7; }),
+             {{{0, 1, 0}, 5},
+              {{0, -1, 0}, 7},
+              {direction(0.3, 0.1), 5},
+              {direction(0.3, 0.5), 6},
+              {direction(0.3, 0.95), 7}});
 }
 
 TEST(SkyRadiance, OneTexelAndExactSeamStayInRange) {
@@ -142,15 +123,6 @@ TEST(AmbientFromSky, ConstantSkyGivesItself) {
   }
 }
 
-TEST(AmbientFromSky, GradientInClosedForm) {
-  // The cosine-weighted mean of y is 2/3: a third is horizon, and two thirds are zenith or ground.
-  const Ambient a = ambientFromSky(gradientSky(), 1);
-  EXPECT_FLOAT_EQ(a.up.x, 0.5f * 4 / 3);
-  EXPECT_FLOAT_EQ(a.up.z, 0.5f * (4 + 2 * 8) / 3);
-  EXPECT_FLOAT_EQ(a.down.x, 0.5f * (4 + 2 * 2) / 3);
-  EXPECT_FLOAT_EQ(a.down.y, 0.5f * 4 / 3);
-}
-
 TEST(AmbientFromSky, HemispheresAreKeptApart) {
   const Ambient a = ambientFromSky(imageSky(4, 4, [](int, int y) { return y < 2 ? 1 : 0; }), 2);
   EXPECT_NEAR(a.up.x, 2, 1e-6);
@@ -166,45 +138,12 @@ TEST(AmbientFromSky, HemispheresAreKeptApart) {
 }
 
 TEST(AmbientFromSky, ImageOfAGradientApproachesTheGradient) {
-  const int height = 128;
-  const Sky sky =
-      imageSky(4, height, [&](int, int y) { return 1 + std::cos(kPi * (y + 0.5) / height); });
+  const Sky sky = imageSky(4, 128, [](int, int y) { return 1 + std::cos(kPi * (y + 0.5) / 128); });
   const Ambient a = ambientFromSky(sky, 1);
 
   // Texels have the value at their centers, so that the error is quadratic in the row's height.
   EXPECT_NEAR(a.up.x, 1 + 2.0 / 3, 1e-4);
   EXPECT_NEAR(a.down.x, 1 - 2.0 / 3, 1e-4);
-}
-
-TEST(AmbientFromSky, NoneIsBlack) {
-  EXPECT_EQ(ambientFromSky(Sky{}, 1).up, Rgb{});
-  EXPECT_EQ(ambientFromSky(Sky{}, 1).down, Rgb{});
-}
-
-TEST(BlurredSky, OfOneColorIsThatColor) {
-  Sky sky = gradientSky();
-  sky.horizon = sky.ground = sky.zenith;
-  const EnvironmentImage blurred = blurredSky(sky);
-  for (const double roughness : {0.0, 0.03, 0.35, 1.0}) {
-    const RgbD seen = blurredRadiance(sky, blurred, direction(0.3, 0.7), roughness);
-    EXPECT_NEAR(seen.z, 4, 1e-5) << roughness;
-    EXPECT_EQ(seen.x, 0);
-  }
-}
-
-// GGX of roughness 1 is constant over the half vectors, which leaves the mean weighted by the
-// cosine, and ambient light has it in closed form. The sums' texels are 6 degrees wide, hence 0.01.
-TEST(BlurredSky, OfRoughnessOneIsTheCosineWeightedMean) {
-  const Sky sky = gradientSky();
-  const Ambient mean = ambientFromSky(sky, 1);
-  const EnvironmentImage blurred = blurredSky(sky);
-
-  const RgbD up = blurredRadiance(sky, blurred, {0, 1, 0}, 1);
-  const RgbD down = blurredRadiance(sky, blurred, {0, -1, 0}, 1);
-
-  EXPECT_NEAR(up.z, double{mean.up.z}, 0.01 * mean.up.z);
-  EXPECT_NEAR(up.x, double{mean.up.x}, 0.01 * mean.up.x);
-  EXPECT_NEAR(down.x, double{mean.down.x}, 0.01 * mean.down.x);
 }
 
 // Returns the mean of a cosine under a lobe around its axis, weighted by D(h) cos(theta) of GGX
@@ -230,7 +169,6 @@ TEST(BlurredSky, ShrinksALinearSkyByTheLobesMeanCosine) {
   });
 
   const EnvironmentImage blurred = blurredSky(sky);
-  double worst = 0;
   for (const double roughness : {0.2, 0.4, 0.6, 0.8, 1.0}) {
     for (double azimuth = 0.02; azimuth < 1; azimuth += 0.07) {
       for (double polar = 0.05; polar < 1; polar += 0.06) {
@@ -238,13 +176,11 @@ TEST(BlurredSky, ShrinksALinearSkyByTheLobesMeanCosine) {
         const double expected = 1 + dot(slope, d) * meanCosine(roughness);
 
         const RgbD seen = blurredRadiance(sky, blurred, d, roughness);
-        worst = std::max({worst, std::abs(seen.x - expected), std::abs(seen.z / 3 - expected)});
         EXPECT_NEAR(seen.x, expected, kError) << roughness << " " << azimuth << " " << polar;
+        EXPECT_NEAR(seen.z, 3 * seen.x, 1e-5);
       }
     }
   }
-
-  std::printf("worst error %.4f of %.4f\n", worst, kError);
 }
 
 // A bright texel is the darker the further the lobe is turned away and, along the lobe, the rougher
