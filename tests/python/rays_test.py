@@ -1,14 +1,13 @@
 """Queries of rays from arrays: shapes, kinds of numbers, and what is refused. What they find is
 tested in tests/example/rays_test.cpp."""
 
-import threading
 import unittest
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import scene_of
+from samples import error_of, in_threads, scene_of
 
 DOWN = np.array([0.0, -1.0, 0.0])
 
@@ -44,7 +43,7 @@ class Rays(unittest.TestCase):
         """Its answers are single numbers; arrays of any leading shape give arrays of that shape."""
         hits = self.scene.closest([0.25, 2, 0], [0, -1, 0])
         self.assertEqual((hits.t.shape, hits.point.shape, hits.uv.shape), ((), (3,), (2,)))
-        self.assertEqual((hits.t, hits.side, bool(hits.hit)), (2, 1, True))
+        self.assertEqual((hits.t, hits.side, hits.hit), (2, 1, True))
         assert_allclose(hits.point, [0.25, 0, 0], atol=1e-15)
         self.assertEqual(repr(hits), "<whit.Hits: 1 of shape ()>")
         self.assertFalse(self.scene.closest([3, 2, 0], [0, -1, 0]).hit)
@@ -68,9 +67,8 @@ class Rays(unittest.TestCase):
     def test_any_kind_of_numbers(self):
         points = grid(3, 3).astype(np.float32)
         expected = self.scene.closest(points, DOWN).t
-        for kind in (np.float64, np.float16, list):
-            same = points.tolist() if kind is list else points.astype(kind)
-            tolerance = 1e-2 if kind is np.float16 else 0
+        for same, tolerance in ((points.tolist(), 0), (points.astype(float), 0),
+                                (points.astype(np.float16), 1e-2)):
             assert_allclose(self.scene.closest(same, DOWN).t, expected, tolerance)
         strided = np.asfortranarray(points)[::-1]
         assert_array_equal(self.scene.closest(strided, DOWN).t, expected[::-1])
@@ -97,41 +95,31 @@ class Rays(unittest.TestCase):
         self.assertEqual(self.scene.all_hits(grid(1, 1) + 9, DOWN).t.shape, (0,))
 
     def test_what_is_refused(self):
-        for origins, directions, words in ((np.zeros((2, 2)), DOWN, "origins"),
-                                           (np.zeros((2, 3)), np.zeros((3, 3)), "directions"),
-                                           ("here", DOWN, "origins"),
-                                           (np.zeros(3), None, "directions")):
-            with self.assertRaisesRegex(whit.Error, words):
-                self.scene.closest(origins, directions)
-        with self.assertRaisesRegex(whit.Error, "t_far"):
-            self.scene.closest(np.zeros((2, 3)), DOWN, t_far=np.zeros(3))
-        with self.assertRaisesRegex(ValueError, "limit: expected None or at least 0"):
-            self.scene.all_hits(np.zeros(3), DOWN, limit=-1)
-        with self.assertRaisesRegex(whit.Error, "radius"):
-            self.scene.ambient_occlusion(np.zeros(3), DOWN, -1)
+        three, six = np.zeros(3), np.zeros((2, 3))
+        closest = self.scene.closest
+        for words, ask in (
+                ("origins", lambda: closest(np.zeros((2, 2)), DOWN)),
+                ("origins", lambda: closest("here", DOWN)),
+                ("directions", lambda: closest(six, np.zeros((3, 3)))),
+                ("directions", lambda: closest(three, None)),
+                ("t_far", lambda: closest(six, DOWN, t_far=three)),
+                ("limit: expected None or at least 0",
+                 lambda: self.scene.all_hits(three, DOWN, limit=-1)),
+                ("radius", lambda: self.scene.ambient_occlusion(three, DOWN, -1))):
+            with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
+                ask()
 
     def test_progress_can_end_it(self):
         points = np.zeros((300000, 3)) + [0, 1, 0]
-        with self.assertRaises(whit.Error) as raised:
-            self.scene.closest(points, DOWN, progress=lambda phase, done: False)
-        self.assertEqual(raised.exception.exit_status, 130)
+        error = error_of(self.scene.closest, points, DOWN, progress=lambda *_: False)
+        self.assertEqual(error.exit_status, 130)
         self.assertTrue(self.scene.occluded([0, 1, 0], DOWN))
 
     def test_threads_ask_in_turn(self):
         points = grid(40, 40)
         expected = self.scene.closest(points, DOWN).t
-        found = [None] * 4
-
-        def ask(i):
-            found[i] = self.scene.closest(points, DOWN).t
-
-        threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        for t in found:
-            assert_array_equal(t, expected)
+        for hits in in_threads(self.scene.closest, [points] * 4, [DOWN] * 4):
+            assert_array_equal(hits.t, expected)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 """What the tests of the Python module share."""
 
+import concurrent.futures
 import contextlib
 import os
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
 
@@ -31,6 +34,27 @@ def program(*words):
     if done.returncode != 0:
         raise AssertionError(f"whit {' '.join(words)}: {done.stderr}{done.stdout}")
     return done.stdout
+
+
+def python(code, *flags, **arguments):
+    """The outcome of a Python program; `arguments` are those of subprocess.run."""
+    return subprocess.run([sys.executable, *flags, "-c", code], capture_output=True, text=True,
+                          check=False, **arguments)
+
+
+def in_threads(work, *arguments):
+    """What map(work, *arguments) has, each call on a thread of its own."""
+    with concurrent.futures.ThreadPoolExecutor(len(arguments[0])) as pool:
+        return list(pool.map(work, *arguments))
+
+
+def error_of(call, *arguments, **named):
+    """The whit.Error that a call raises."""
+    try:
+        call(*arguments, **named)
+    except whit.Error as error:
+        return error
+    raise AssertionError("nothing was raised")
 
 
 def square(**arrays):
@@ -59,3 +83,8 @@ def scene_of(mesh=None, **members):
 def pixels(scene):
     """The picture of a scene in the size that tests use, as linear colors."""
     return scene.render(size=SIZE).rgb
+
+
+def assert_same(one, other):
+    """Expects the same picture of two scenes, bit for bit."""
+    assert_array_equal(pixels(one), pixels(other))
