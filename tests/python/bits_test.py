@@ -1,12 +1,13 @@
 """The same bits as the program's, whatever happens around a picture."""
 
+import gc
 import unittest
 
 import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import (SIZE, assert_same, error_of, in_threads, pixels, program, scene_of,
+from samples import (SIZE, assert_same, error_of, expect_picture, in_threads, pixels, scene_of,
                      temporary_folder)
 from whit import _options
 
@@ -27,14 +28,6 @@ def words_of(settings, options):
     for keyword, value in options.items():
         words += ["--" + keyword.replace("_", "-"), _options.OPTIONS[keyword].text(value)]
     return words
-
-
-def expect_picture(picture, name, *words):
-    """Expects that the program, with these words, makes the same files."""
-    for kind in ("exr", "png"):
-        picture.write(f"module.{kind}")
-        program("render", name, "-o", f"program.{kind}", "--size", "48x30", "--quiet", *words)
-        program("compare", f"module.{kind}", f"program.{kind}", "--tolerance", "0", "--quiet")
 
 
 class Bits(unittest.TestCase):
@@ -92,10 +85,12 @@ class Bits(unittest.TestCase):
     def test_pictures_outlive_their_scene_and_those_that_follow(self):
         scene = whit.Scene("whitted")
         picture = scene.render(size=SIZE)
-        kept, rgb = picture.rgb.copy(), picture.rgb
+        kept, rgb, lent = picture.rgb.copy(), picture.rgb, np.from_dlpack(picture.rgb)
         scene.render(size=SIZE, depth=0)
         del scene, picture
-        assert_array_equal(kept, rgb)
+        gc.collect()
+        for array in (rgb, lent):
+            assert_array_equal(kept, array)
 
     def test_four_threads_render_four_scenes_at_once(self):
         def work(name):

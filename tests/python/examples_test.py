@@ -1,6 +1,5 @@
 """The examples of the module's page, as they stand there, and its signatures."""
 
-import gc
 import os
 import re
 import subprocess
@@ -180,13 +179,6 @@ class Pictures(unittest.TestCase):
         assert_array_equal(picture["depth.distance"], picture["depth"][:, :, 1])
         assert_array_equal(picture["normal.Z"], picture["normal"][:, :, 2])
 
-    def test_arrays_outlive_their_picture(self):
-        expected = render().rgb.copy()
-        array = np.from_dlpack(render().rgb)
-        gc.collect()
-        render(spp=4)
-        assert_array_equal(array, expected)
-
     def test_what_is_written_to_arrays_is_in_files(self):
         with temporary_folder():
             picture = render()
@@ -314,15 +306,10 @@ class Pictures(unittest.TestCase):
         self.assertEqual(cost["rays"]["primary"], 48 * 30)
         self.assertGreater(cost["frame_ms"], 0)
         self.assertIn("generateRays", cost["stages_ms"])
-        self.assertEqual(cost["non_finite_pixels"], 0)
-
-    def test_statistics_count_pixels_of_bounded_rays(self):
+        self.assertEqual((cost["non_finite_pixels"], cost["limited_pixels"]), (0, 0))
         # Glass branches at each surface, so a few rays a sample are too few for some pixels of it.
-        scene = whit.Scene("glass")
-        self.assertEqual(scene.render(size=SIZE).statistics["limited_pixels"], 0)
-        limited = scene.render(size=SIZE, max_rays=10).statistics["limited_pixels"]
-        self.assertGreater(limited, 0)
-        self.assertLess(limited, SIZE[0] * SIZE[1])
+        limited = whit.Scene("glass").render(size=SIZE, max_rays=10).statistics["limited_pixels"]
+        self.assertTrue(0 < limited < 48 * 30)
 
 
 if __name__ == "__main__":

@@ -98,7 +98,6 @@ class Messages(unittest.TestCase):
                 (2, r"no channel 'albedo': render\(channels=\['albedo'\]\)$",
                  picture.write, "x.albedo.png"),
                 (2, "a.gif", picture.write, "a.gif"),
-                (4, "such/a.png", picture.write, "/no/such/a.png"),
                 (4, "/proc/a.png", picture.write, "/proc/a.png"),
                 (2, "no-such-scene", whit.Scene, "no-such-scene"),
                 (3, "/lights", whit.Scene, {"lights": 4})):

@@ -106,7 +106,8 @@ class Pickles(unittest.TestCase):
 
     def test_errors(self):
         for error in (whit.Error("a"), whit.Error("a", 4, "/no/such/file", "1:2", "all"),
-                      whit.Error("a", 4, "/"), whit.Error("a", 5), whit.Error("a", 130)):
+                      whit.Error("a", 4, "/"), whit.Error("a", 5), whit.Error("a", 130),
+                      error_of(whit.Scene, {"size": [0, 1]}, name="mine")):
             other = restored(error)
             self.assertEqual((type(other), str(other), vars(other)),
                              (type(error), str(error), vars(error)))

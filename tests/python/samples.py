@@ -36,6 +36,14 @@ def program(*words):
     return done.stdout
 
 
+def expect_picture(picture, name, *words):
+    """Expects that the program, with these words, makes the same files of a scene."""
+    for kind in ("exr", "png"):
+        picture.write(f"module.{kind}")
+        program("render", name, "-o", f"program.{kind}", "--size", "48x30", "--quiet", *words)
+        program("compare", f"module.{kind}", f"program.{kind}", "--tolerance", "0", "--quiet")
+
+
 def python(code, *flags, **arguments):
     """The outcome of a Python program; `arguments` are those of subprocess.run."""
     return subprocess.run([sys.executable, *flags, "-c", code], capture_output=True, text=True,
