@@ -21,15 +21,8 @@ Scene sheetScene(const Corners& corners) {
   builder.addMesh("sheet", sheet(corners));
   builder.addInstance("sheet");
   builder.addCamera("front", {{0.5, 2, 4}, {0, 0, 0}});
-
-  Light lamp;
-  lamp.position = {1, 4, 2};
-  lamp.intensity = {30, 30, 30};
-  builder.addLight(lamp);
-
-  LoadOptions options;
-  options.movable = {"/scene/0"};
-  return builder.build(options);
+  builder.addLight({.position = {1, 4, 2}, .intensity = {30, 30, 30}});
+  return builder.build({.movable = {"/scene/0"}});
 }
 
 TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
@@ -48,12 +41,12 @@ TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
 }
 
 TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
-  constexpr Matrix kRaised{1, 0, 0, 0.25, 0, 1, 0, 0.5, 0, 0, 1, 0};
   Renderer expected = smallRenderer(sheetScene(kBentCorners));
-  expected.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
-
   Renderer renderer = smallRenderer(sheetScene(kFlatCorners));
-  renderer.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
+  for (Renderer* changed : {&expected, &renderer}) {
+    changed->setMember("/lights/0/intensity", "60")
+        .setTransform("/scene/0", placed({0.25, 0.5, 0}));
+  }
   renderer.updateMesh("sheet", sheet(kBentCorners));
   const Image picture = renderer.render();
   EXPECT_TRUE(samePictures(picture, expected.render()));
@@ -89,8 +82,8 @@ TEST(UpdateMesh, RefusesWhatIsNoMesh) {
   EXPECT_EQ(refused.place(), "/scene/0/mesh");
   EXPECT_TRUE(samePictures(renderer.render(), before));
 
-  Renderer file = smallRenderer(loadScene("whitted"));
-  EXPECT_EQ(errorOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }).status(), 2);
+  Renderer file = smallRenderer("whitted");
+  EXPECT_EQ(statusOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }), 2);
 }
 
 }  // namespace
