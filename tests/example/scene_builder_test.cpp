@@ -34,7 +34,9 @@ SceneBuilder sheetBuilder() {
   return builder;
 }
 
-Image pictureOf(const SceneBuilder& builder) { return smallRenderer(builder.build()).render(); }
+Image pictureBuiltBy(const SceneBuilder& builder) {
+  return smallRenderer(builder.build()).render();
+}
 
 // Writes the same scene as a scene file, a model and an image.
 std::string writeSheets(const TemporaryFolder& folder) {
@@ -69,6 +71,9 @@ TEST(SceneBuilder, MakesThePictureOfFiles) {
   builder.set("/sky", R"({"color": [0.1, 0.2, 0.3]})").set("/ambient", R"({"fromSky": 0.5})");
 
   const Scene scene = builder.build();
+  EXPECT_EQ(builder.addLight({}), "/lights/1");
+  EXPECT_EQ(builder.addCamera("a/b", kCamera), "/cameras/a~1b");
+  EXPECT_EQ(builder.addMaterial("blue", {}), "/materials/blue");
   EXPECT_EQ(scene.name(), "sheets");
   EXPECT_EQ(scene.triangles(), 4u);
   EXPECT_EQ(scene.cameras(), std::vector<std::string>{"front"});
@@ -78,17 +83,10 @@ TEST(SceneBuilder, MakesThePictureOfFiles) {
   EXPECT_GT(std::ranges::max(image.rgb()), 0.25f);
 }
 
-TEST(SceneBuilder, TellsWhereThingsAre) {
-  SceneBuilder builder = sheetBuilder();
-  EXPECT_EQ(builder.addLight({}), "/lights/1");
-  EXPECT_EQ(builder.addCamera("a/b", kCamera), "/cameras/a~1b");
-  EXPECT_EQ(builder.addMaterial("blue", {}), "/materials/blue");
-}
-
 TEST(SceneBuilder, CamerasHaveAProjection) {
   SceneBuilder builder = sheetBuilder();
   builder.addInstance("sheet", "red");
-  const Image plain = pictureOf(builder);
+  const Image plain = pictureBuiltBy(builder);
 
   Camera camera = kCamera;
   camera.projection = "equisolid";
@@ -117,8 +115,8 @@ TEST(SceneBuilder, VerticesComeInThreesWithoutTriangles) {
                                         -1, 0, -1, -1, 0.5f, 1, 1, 0, 1};
   SceneBuilder builder = sheetBuilder();
   builder.addInstance("sheet");
-  const Image expected = pictureOf(builder);
-  EXPECT_TRUE(samePictures(pictureOf(builder.addMesh("sheet", {kSoup})), expected));
+  const Image expected = pictureBuiltBy(builder);
+  EXPECT_TRUE(samePictures(pictureBuiltBy(builder.addMesh("sheet", {kSoup})), expected));
 }
 
 TEST(SceneBuilder, MemoryIsHeldUntilItIsReadForTheLastTime) {

@@ -57,14 +57,25 @@ TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
   EXPECT_TRUE(samePictures(renderer.render(), picture));
 }
 
+// As do members and transforms.
 TEST(UpdateMesh, LeavesTheScenesOfOthersAlone) {
   const Scene scene = sheetScene(kFlatCorners);
-  Renderer changed = smallRenderer(scene), other = smallRenderer(scene);
+  Renderer other = smallRenderer(scene);
   const Image before = other.render();
-  changed.updateMesh("sheet", sheet(kBentCorners));
-  EXPECT_FALSE(samePictures(changed.render(), before));
-  EXPECT_TRUE(samePictures(other.render(), before));
-  EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+  const std::function<void(Renderer&)> changes[] = {
+      [](Renderer& r) { r.updateMesh("sheet", sheet(kBentCorners)); },
+      [](Renderer& r) { r.setMember("/lights/0/intensity", "4"); },
+      [](Renderer& r) {
+        r.setTransform("/scene/0", placed({0, 0.5, 0}));
+      },
+  };
+  for (const auto& change : changes) {
+    Renderer changed = smallRenderer(scene);
+    change(changed);
+    EXPECT_FALSE(samePictures(changed.render(), before));
+    EXPECT_TRUE(samePictures(other.render(), before));
+    EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+  }
 }
 
 TEST(UpdateMesh, RefusesWhatIsNoMesh) {

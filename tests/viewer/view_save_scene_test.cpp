@@ -17,7 +17,7 @@ class SavedScenes : public Viewer {
     Viewer::SetUp();
     writeSky(folder_ / "sky.exr");
   }
-  Json read(const std::string& file) { return Json::parse(cli::readFile(folder_ / file)); }
+  Json read(const std::string& file) { return Json::parse(Viewer::read(file)); }
   void expectThatItShows(const std::string& picture, const Words& commands) {
     for (const std::string& command : commands) Viewer::expectThatItShows(picture, command);
   }

@@ -53,6 +53,7 @@ class Sessions : public testing::Test {
     session_->act(line);
     settle();
   }
+  std::string command() const { return session_->command(); }
   void expectNothingToUndo() {
     session_->act("undo");
     EXPECT_EQ(state().message, "there is nothing to undo");
@@ -142,27 +143,27 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   options_.common.given = {"camera", "fov"};
   begin(openAndWarn(options_.scene, options_.common, nullptr));
   settle();
-  const std::string given = session_->command();
+  const std::string given = command();
   EXPECT_TRUE(hasText(given, "--fov=30 "));
   EXPECT_TRUE(hasText(given, lamp_[0]));
 
   begin(nullptr);
   settle();
   EXPECT_TRUE(session_->choosesScene());
-  EXPECT_EQ(session_->command(), "") << "the empty scene has a command";
+  EXPECT_EQ(command(), "") << "the empty scene has a command";
   session_->open(options_.scene);
   settle();
-  EXPECT_EQ(session_->command(), given);
+  EXPECT_EQ(command(), given);
   EXPECT_FALSE(session_->hasUnsavedEdits());
   act("reload");
-  EXPECT_EQ(session_->command(), given);
+  EXPECT_EQ(command(), given);
 
   // Neither holds for another scene, which has no such camera.
   session_->open("whitted");
   settle();
   EXPECT_EQ(state().error, "");
-  EXPECT_TRUE(session_->command().starts_with("whit render whitted -o whitted.png --size"));
-  EXPECT_FALSE(hasText(session_->command(), "--fov"));
+  EXPECT_TRUE(command().starts_with("whit render whitted -o whitted.png --size"));
+  EXPECT_FALSE(hasText(command(), "--fov"));
   EXPECT_EQ(settings(), none_);
 }
 
@@ -238,10 +239,10 @@ TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
 
 // The views of a debug view have another command, because whit render does not make them.
 TEST_F(Sessions, TheCommandMakesWhatIsShown) {
-  EXPECT_TRUE(session_->command().starts_with("whit render "));
+  EXPECT_TRUE(command().starts_with("whit render "));
   act("view depth");
-  EXPECT_TRUE(session_->command().starts_with("whit-view "));
-  EXPECT_TRUE(hasText(session_->command(), " --view=depth"));
+  EXPECT_TRUE(command().starts_with("whit-view "));
+  EXPECT_TRUE(hasText(command(), " --view=depth"));
 }
 
 }  // namespace

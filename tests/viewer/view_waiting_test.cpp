@@ -68,17 +68,11 @@ TEST_F(Reading, TheLastChoiceCounts) {
   EXPECT_FALSE(readBy(reader_));
 }
 
-TEST_F(Reading, IsGivenUp) {
-  reader_.read({kSlowScene});
-  reader_.giveUp();
-  EXPECT_FALSE(reader_.busy());
-  EXPECT_EQ(reader_.text(), "");
-  EXPECT_FALSE(reader_.take());
-}
-
 TEST_F(Reading, ASceneThatWasReadIsFreedWhenItIsGivenUp) {
   reader_.read({name_});
   reader_.giveUp();
+  EXPECT_FALSE(reader_.busy());
+  EXPECT_EQ(reader_.text(), "");
   EXPECT_TRUE(waitUntil([&] {
     EXPECT_FALSE(reader_.take());
     return !reader_.holds();
@@ -148,7 +142,7 @@ TEST_F(Viewer, WithoutASceneItOffersSome) {
 }
 
 TEST_F(Viewer, ABlackPictureSaysWhy) {
-  Json scene = Json::parse(cli::readFile(folder_ / "tiny.json"));
+  Json scene = Json::parse(read("tiny.json"));
   scene.erase("lights");
   write("tiny.json", scene.dump());
   play("asked\nkey Shift\nwait 300 frames\nwait sharp\nscreenshot dark.png\n", "640x120");
@@ -164,8 +158,8 @@ TEST_F(Viewer, ABlackPictureSaysWhy) {
 TEST_F(Viewer, EscapeEndsTheWaitForThePicture) {
   play("asked\nkey D 0.3\nkey F12\nkey Esc\nwait 3 frames\nwait sharp\nscreenshot shown.png\n",
        "400x300", {"--spp", "64"});
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "shown.png")) << "Escape has ended the viewer";
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny-0001.png"));
+  EXPECT_TRUE(exists("shown.png")) << "Escape has ended the viewer";
+  EXPECT_FALSE(exists("tiny-0001.png"));
 }
 
 // Another scene never completes the picture that was to be saved.
@@ -173,8 +167,8 @@ TEST_F(Viewer, AnotherSceneEndsTheWaitForThePicture) {
   std::filesystem::copy(folder_ / "tiny.json", folder_ / "other.json");
   play("asked\nkey D 0.3\nkey F12\ndrop other.json\nwait 60 frames\nwait sharp\nkey C\n", "400x300",
        {"--spp", "64"});
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny-0001.png"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "other-0001.png"));
+  EXPECT_FALSE(exists("tiny-0001.png"));
+  EXPECT_FALSE(exists("other-0001.png"));
 }
 
 }  // namespace

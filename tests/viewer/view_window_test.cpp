@@ -11,7 +11,6 @@
 namespace whit::view {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::string_literals;
 
 // A script that prints commands, all of them equal, which render `picture`.
@@ -111,7 +110,7 @@ TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
   EXPECT_TRUE(hasText(lines[0], "--eye=-"));  // it flew to the left
 
   expectThatItShows("tiny-0001.png", lines[0]);
-  EXPECT_EQ(cli::readFile(folder_ / "tiny-0001.exr"), cli::readFile(folder_ / "tiny-0002.exr"));
+  EXPECT_EQ(read("tiny-0001.exr"), read("tiny-0002.exr"));
 
   // The EXR of the command has the same bits.
   render(lines[0], "again.exr");
@@ -151,7 +150,7 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
 
 // The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
-  const auto kept = [&] { return cli::readFile(folder_ / "whit/viewer.json"); };
+  const auto kept = [&] { return read("whit/viewer.json"); };
   EXPECT_TRUE(
       hasText(play("wait sharp\nkey C\nkey P\nwait 2 frames\n", "").out, " --size=533x355"));
   EXPECT_TRUE(hasText(kept(), "\"panel\": true"));
@@ -221,8 +220,8 @@ TEST_F(Viewer, TheSavedDebugViewIsTheOneShown) {
                  "240x160", {"--view", "depth"});
   EXPECT_TRUE(lines[0].starts_with("whit-view tiny.json --view=depth ")) << lines[0];
   expectSameCodes("tiny-depth-0001.png", "shown.png");
-  EXPECT_FALSE(fs::exists(folder_ / "tiny-depth-0001.exr")) << "that would be the picture";
-  EXPECT_NE(cli::readFile(folder_ / "tiny-depth-0001.png").find("view\0depth"s), std::string::npos);
+  EXPECT_FALSE(exists("tiny-depth-0001.exr")) << "that would be the picture";
+  EXPECT_NE(read("tiny-depth-0001.png").find("view\0depth"s), std::string::npos);
 }
 
 // The list of cameras and the keys take the place of the panel. Escape closes what is open, and
@@ -239,7 +238,7 @@ TEST_F(Viewer, EscapeClosesWhatIsOpen) {
   for (std::size_t i = 0; i < shown.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) expectOtherCodes(shown[i], shown[k]);
   }
-  EXPECT_FALSE(fs::exists(folder_ / "never.png"));
+  EXPECT_FALSE(exists("never.png"));
 }
 
 // The list of cameras is at the right; its second entry is clicked on. Dear ImGui 1.90 takes a
@@ -310,11 +309,11 @@ TEST_F(Viewer, AsksBeforeEditsAreLost) {
   const std::string escapes = "key Esc\nwait 3 frames\nkey Esc\nwait 3 frames\n";
   play(kTwoEdits + escapes + "screenshot asked.png\nkey Esc\nwait 3 frames\nscreenshot no.png\n",
        "800x480");
-  EXPECT_TRUE(fs::exists(folder_ / "asked.png"));
-  EXPECT_FALSE(fs::exists(folder_ / "no.png"));
+  EXPECT_TRUE(exists("asked.png"));
+  EXPECT_FALSE(exists("no.png"));
 
   play(kTwoEdits + "key Ctrl+S\n" + escapes + "screenshot saved.png\n", "800x480");
-  EXPECT_FALSE(fs::exists(folder_ / "saved.png"));
+  EXPECT_FALSE(exists("saved.png"));
 }
 
 TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {

@@ -29,9 +29,11 @@ class Viewer : public testing::Test {
   void write(const std::string& file, const std::string& text) {
     std::ofstream(folder_ / file) << text;
   }
+  std::string read(const std::string& file) { return cli::readFile(folder_ / file); }
+  bool exists(const std::string& file) { return std::filesystem::exists(folder_ / file); }
   // Writes a scene that is the tiny one but for one text in it.
   void writeChanged(const std::string& file, const std::string& text, const std::string& other) {
-    std::string scene = cli::readFile(folder_ / "tiny.json");
+    std::string scene = read("tiny.json");
     write(file, scene.replace(scene.find(text), text.size(), other));
   }
 
