@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import whit
-from samples import SIZE, error_of, pixels, python, scene_of, temporary_folder
-
-LONG = dict(size=(640, 400), spp=64)  # seconds, if nothing ends it
+from samples import (LONG, SIZE, another_thread_rendering, error_of, pixels, python, scene_of,
+                     temporary_folder)
 
 
 class Control(unittest.TestCase):
@@ -48,7 +47,7 @@ class Control(unittest.TestCase):
         error = error_of(self.scene.render, progress=lambda *_: self.scene.render(size=SIZE), **LONG)
         self.assertEqual(error.exit_status, 2)
 
-    def render_until_control_c(self):
+    def test_control_c(self):
         timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
@@ -56,27 +55,9 @@ class Control(unittest.TestCase):
                 self.scene.render(**LONG)
         timer.join()
 
-    def test_control_c(self):
-        self.render_until_control_c()
-
     def test_control_c_while_waiting_for_another_thread(self):
-        begun, stop = threading.Event(), threading.Event()
-
-        def progress(phase, fraction):
-            begun.set()
-            return not stop.is_set()
-
-        def render():
-            with self.assertRaises(whit.Error):
-                while True:
-                    self.scene.render(progress=progress, **LONG)
-
-        thread = threading.Thread(target=render)
-        thread.start()
-        begun.wait()
-        self.render_until_control_c()
-        stop.set()
-        thread.join()
+        with another_thread_rendering(self.scene):
+            self.test_control_c()
 
     def test_others_run_meanwhile(self):
         counted = 0

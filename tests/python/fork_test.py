@@ -1,6 +1,5 @@
 """Scenes in child processes, which os.fork and multiprocessing make, from several threads."""
 
-import multiprocessing
 import os
 import signal
 import sys
@@ -13,9 +12,8 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, in_threads, pixels, python, scene_of, temporary_folder
-
-SECONDS = 60  # a child that hangs is ended by its alarm
+from samples import (SECONDS, SIZE, another_thread_rendering, expect_in_processes, in_threads,
+                     pixels, python, scene_of, temporary_folder)
 
 
 def status_of_child(body):
@@ -32,11 +30,6 @@ def status_of_child(body):
             os._exit(1)
         os._exit(0)
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-
-
-def render_into(scene, queue):
-    signal.alarm(SECONDS)
-    queue.put(pixels(scene))
 
 
 class Fork(unittest.TestCase):
@@ -106,30 +99,14 @@ class Fork(unittest.TestCase):
     def test_other_threads_that_render(self):
         """The child has its own scene; the other thread's gives an error."""
         theirs = whit.Scene("whitted")
-        begun, stop = threading.Event(), threading.Event()
-
-        def progress(phase, fraction):
-            begun.set()
-            return not stop.is_set()
-
-        def work():
-            with self.assertRaises(whit.Error):
-                while True:
-                    theirs.render(size=(640, 400), spp=64, progress=progress)
 
         def in_child():
             self.render()
             with self.assertRaisesRegex(whit.Error, "another thread used the scene"):
                 theirs.render(size=SIZE)
 
-        thread = threading.Thread(target=work)
-        thread.start()
-        begun.wait()
-        try:
+        with another_thread_rendering(theirs):
             self.in_child(in_child)
-        finally:
-            stop.set()
-            thread.join()
 
     def test_a_fork_while_another_thread_builds(self):
         """Embree's locks may be held for ever in the child: an error says so."""
@@ -202,16 +179,7 @@ class Fork(unittest.TestCase):
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]), 7)
 
     def test_multiprocessing(self):
-        context = multiprocessing.get_context("fork")
-        queue = context.Queue()
-        processes = [context.Process(target=render_into, args=(self.scene, queue)) for _ in range(2)]
-        for process in processes:
-            process.start()
-        for process in processes:
-            assert_array_equal(queue.get(timeout=SECONDS), self.expected)
-        for process in processes:
-            process.join()
-            self.assertEqual(process.exitcode, 0)
+        expect_in_processes("fork", self.scene, 2)
 
 
 if __name__ == "__main__":

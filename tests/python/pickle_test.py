@@ -1,10 +1,8 @@
 """Pickles and copies of scenes and pictures, and scenes in spawned processes."""
 
 import copy
-import multiprocessing
 import os
 import pickle
-import signal
 import unittest
 from pathlib import Path
 
@@ -12,16 +10,8 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import (SIZE, assert_same, error_of, pixels, scene_of, square, square_scene,
-                     temporary_folder)
-
-SECONDS = 60  # a child that hangs is ended by its alarm
-
-
-def render_into(scene, queue):
-    signal.alarm(SECONDS)
-    queue.put(scene.render(size=SIZE))
-
+from samples import (SIZE, assert_same, error_of, expect_in_processes, pixels, scene_of, square,
+                     square_scene, temporary_folder)
 
 def restored(thing):
     return pickle.loads(pickle.dumps(thing))
@@ -115,14 +105,7 @@ class Pickles(unittest.TestCase):
     def test_spawned_processes(self):
         scene = scene_of()
         scene.set("/lights/0/intensity", 20)
-        context = multiprocessing.get_context("spawn")
-        queue = context.Queue()
-        process = context.Process(target=render_into, args=(scene, queue))
-        process.start()
-        picture = queue.get(timeout=SECONDS)
-        process.join()
-        self.assertEqual(process.exitcode, 0)
-        assert_array_equal(picture.rgb, pixels(scene))
+        expect_in_processes("spawn", scene, 1)
 
 
 if __name__ == "__main__":

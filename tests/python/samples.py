@@ -2,10 +2,13 @@
 
 import concurrent.futures
 import contextlib
+import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
 
 import numpy as np
 from numpy.testing import assert_array_equal
@@ -13,6 +16,8 @@ from numpy.testing import assert_array_equal
 import whit
 
 SIZE = (48, 30)
+LONG = dict(size=(640, 400), spp=64)  # seconds, if nothing ends it
+SECONDS = 60  # a child that hangs is ended by its alarm
 
 
 @contextlib.contextmanager
@@ -54,6 +59,50 @@ def in_threads(work, *arguments):
     """What map(work, *arguments) has, each call on a thread of its own."""
     with concurrent.futures.ThreadPoolExecutor(len(arguments[0])) as pool:
         return list(pool.map(work, *arguments))
+
+
+@contextlib.contextmanager
+def another_thread_rendering(scene):
+    """Another thread renders the scene, again and again, while this is entered."""
+    begun, stop = threading.Event(), threading.Event()
+
+    def progress(phase, fraction):
+        begun.set()
+        return not stop.is_set()
+
+    def work():
+        with contextlib.suppress(whit.Error):
+            while True:
+                scene.render(progress=progress, **LONG)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    begun.wait()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
+
+
+def _put_pixels(scene, queue):
+    signal.alarm(SECONDS)
+    queue.put(pixels(scene))
+
+
+def expect_in_processes(method, scene, count):
+    """Expects that so many processes, made by that method, have the picture of the scene."""
+    expected = pixels(scene)
+    context = multiprocessing.get_context(method)
+    queue = context.Queue()
+    processes = [context.Process(target=_put_pixels, args=(scene, queue)) for _ in range(count)]
+    for process in processes:
+        process.start()
+    for _ in processes:
+        assert_array_equal(queue.get(timeout=SECONDS), expected)
+    for process in processes:
+        process.join()
+        assert_array_equal(process.exitcode, 0)
 
 
 def error_of(call, *arguments, **named):
