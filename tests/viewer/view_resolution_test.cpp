@@ -111,9 +111,10 @@ TEST(ResolutionControl, IgnoresFramesWithoutTime) {
   EXPECT_EQ(chosen(control).scale, 1);
 }
 
+using Steps = std::vector<Sharpness>;
+
 // Returns the steps of a picture at rest, which begins with nothing or with a picture of
 // `shownScale`.
-using Steps = std::vector<Sharpness>;
 Steps stepsAtRest(ResolutionControl& control, bool supersample, double shownScale = 0) {
   control.startSharpening(kPixels, shownScale);
   Steps steps{control.still(supersample)};

@@ -18,9 +18,9 @@ struct Shown {
   const char *name, *script, *size;
   std::vector<std::string> options;
   std::vector<std::string> parts;  // of the command
-  std::string picture = "shown.png";
-  std::string begins = "whit render tiny.json -o tiny.png ";
   std::size_t commands = 1;
+  const char* picture = "shown.png";
+  const char* begins = "whit render tiny.json -o tiny.png ";
 };
 void PrintTo(const Shown& shown, std::ostream* out) { *out << shown.name; }
 
@@ -48,8 +48,6 @@ const Shown kShown[] = {
      "240x160",
      {"--ortho", "3"},
      {"--ortho=3"},
-     "shown.png",
-     "whit render ",
      2},
     // No option gives a lens, so the camera that has it is named.
     {"WithALens",
@@ -57,8 +55,6 @@ const Shown kShown[] = {
      "240x160",
      {"--spp", "4", "--camera", "side", "--set", "/cameras/side/aperture=0.3"},
      {"--camera=side", "--eye="},
-     "shown.png",
-     "whit render ",
      2},
     // F12 is pressed in motion, where the picture is coarser and has one sample.
     {"SavedInMotion",
@@ -66,9 +62,8 @@ const Shown kShown[] = {
      "400x300",
      {"--spp", "4", "--light-samples", "4"},
      {"--size=400x300", "--spp=4", "--light-samples=4"},
-     "tiny-0001.png",
-     "whit render ",
-     2},
+     2,
+     "tiny-0001.png"},
     // A reload before the dropped scene is there loads the dropped scene.
     {"OfADroppedSceneReadAgain",
      "bare\nasked\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
@@ -76,6 +71,7 @@ const Shown kShown[] = {
      "48x32",
      {},
      {},
+     1,
      "shown.png",
      "whit render whitted "},
     {"FullScreenMinimizedAndResized",
