@@ -118,7 +118,7 @@ checkThreads() {
   local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*/whitted'
   filter+=':*Invariance.H60_any*/landscape:*Adaptive.H60*/0'
   filter+=':RenderThreadTest.*'
-  filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
+  filter+=':Viewer.SurvivesTwoHundredRandomEvents:*/FullScreenMinimizedAndResized'
   filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused:Serving*'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
   if [ -d build-tsan/viewer/serve/CMakeFiles/whit_serve.dir ]; then areas+=(serve); fi

@@ -19,6 +19,15 @@ inline Renderer smallRenderer(Scene scene) {
   return renderer;
 }
 
+inline Renderer smallRenderer(const std::string& name, const LoadOptions& options = {}) {
+  return smallRenderer(loadScene(name, options));
+}
+
+// The transform that scales along the axes, and then moves.
+inline Matrix placed(const Vector& at, const Vector& scale = {1, 1, 1}) {
+  return {scale[0], 0, 0, at[0], 0, scale[1], 0, at[1], 0, 0, scale[2], at[2]};
+}
+
 inline bool samePictures(const Image& a, const Image& b) {
   return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin(), b.rgb().end());
 }
@@ -33,5 +42,6 @@ inline Error errorOf(const std::function<void()>& body) {
   }
   return {0, "nothing was thrown"};
 }
+inline int statusOf(const std::function<void()>& body) { return errorOf(body).status(); }
 
 }  // namespace whit::api

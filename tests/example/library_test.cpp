@@ -1,9 +1,7 @@
 // The public header against the insides: the same bits, the same errors, values that are values.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -30,24 +28,25 @@ const Scene& whittedScene() {
   return scene;
 }
 
-Renderer smallRenderer() {
+Renderer whittedRenderer() {
   Renderer renderer = smallRenderer(whittedScene());
   renderer.set("threads", "1");
   return renderer;
 }
 
-int statusOf(const std::function<void()>& body) { return errorOf(body).status(); }
-
-bool sameBits(const whit::Image& expected, const Image& image) {
-  return image.rgb().size() == 3 * expected.pixels.size() &&
-         std::memcmp(image.rgb().data(), expected.pixels.data(), image.rgb().size_bytes()) == 0;
+// The picture itself, and what a screen shows of it.
+bool sameBits(const Film& expected, const Image& image) {
+  const std::vector<Rgb>& pixels = expected.image.pixels;
+  return image.rgb().size() == 3 * pixels.size() &&
+         std::memcmp(image.rgb().data(), pixels.data(), image.rgb().size_bytes()) == 0 &&
+         std::ranges::equal(image.srgb(), expected.display.rgba);
 }
 
+// A scene and its pictures without the library.
 struct Inside {
-  Inside() {
+  explicit Inside(const std::string& name = "whitted", const whit::LoadOptions& load = {}) {
     Warnings warnings;
-    scene =
-        whit::Scene::finalize(whit::loadScene("whitted", whit::LoadOptions(), warnings), warnings);
+    scene = whit::Scene::finalize(whit::loadScene(name, load, warnings), warnings);
     options.size = ImageSize{40, 24};
     options.threads = 1;
   }
@@ -69,57 +68,57 @@ TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
   SceneBuilder builder("scene", R"({"options": {"spp": 2, "exposure": 1, "tonemap": "filmic"},
                                     "scene": [{"shape": "box"}]})");
   Renderer renderer(builder.build());
-  renderer.set("size", "8x8").set("tonemap", "none");
+  EXPECT_EQ(renderer.get("depth"), "64");
+  EXPECT_EQ(renderer.get("size"), "");
+  renderer.set("tonemap", "none").set("depth", "3");
   EXPECT_EQ(renderer.get("spp"), "2");
   EXPECT_EQ(renderer.get("exposure"), "1");
   EXPECT_EQ(renderer.get("tonemap"), "none");
+
+  // Presets give way to what was set.
   EXPECT_EQ(renderer.set("quality", "good").get("spp"), "16");
+  EXPECT_EQ(renderer.get("depth"), "3");
 
   renderer.setMember("/options/exposure", "2");
   EXPECT_EQ(renderer.get("exposure"), "2");
   EXPECT_EQ(statusOf([&] { renderer.setMember("/options/exposure", "\"bright\""); }), 3);
   EXPECT_EQ(renderer.reset().get("spp"), "2");
-}
 
-TEST(Library, RendersTheSameBits) {
-  Inside inside;
-  Renderer renderer = smallRenderer();
-  const Film film = inside.render(inside.scene.cameras[0]);
-  const Image image = renderer.render();
-  EXPECT_EQ(image.width(), 40);
-  EXPECT_EQ(image.height(), 24);
-  EXPECT_TRUE(sameBits(film.image, image));
-  EXPECT_TRUE(std::equal(image.srgb().begin(), image.srgb().end(), film.display.rgba.begin(),
-                         film.display.rgba.end()));
+  EXPECT_EQ(Renderer(whittedScene()).set("quality", "standard").get("spp"), "1");
 }
 
 TEST(Library, TakesOptionsOverForFramesToCome) {
   Inside inside;
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   Image image = renderer.render();
-  const std::vector<float> deep(image.rgb().begin(), image.rgb().end());
+  EXPECT_EQ(image.width(), 40);
+  EXPECT_EQ(image.height(), 24);
+  const Film deep = inside.render(inside.scene.cameras[0]);
+  EXPECT_TRUE(sameBits(deep, image));
+
   renderer.set("depth", "0").render(image);  // plans the next frame anew
+  EXPECT_FALSE(sameBits(deep, image));
   inside.options.depth = 0;
-  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
-  EXPECT_FALSE(std::equal(deep.begin(), deep.end(), image.rgb().begin()));
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]), image));
 
   // This change builds the BVH anew.
   renderer.set("robust", "off").set("depth", "8").render(image);
   inside.options.depth = 8;
   inside.options.robust = false;
-  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]), image));
 
   renderer.set("mode", "reference").render(image);
-  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0], Mode::reference).image, image));
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0], Mode::reference), image));
   EXPECT_TRUE(renderer.statistics().stages.empty());
 }
 
 TEST(Library, FollowsThePathAndCrops) {
   Inside inside;
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
+  const whit::Camera camera = cameraAt(inside.scene.cameraPath, 0.5);
   Image image;
   renderer.renderOnPath(0.5, image);
-  EXPECT_TRUE(sameBits(inside.render(cameraAt(inside.scene.cameraPath, 0.5)).image, image));
+  EXPECT_TRUE(sameBits(inside.render(camera), image));
   EXPECT_GT(whittedScene().pathSeconds(), 0.5);
 
   renderer.set("crop", "8,4,20,16").renderOnPath(0.5, image);
@@ -127,21 +126,11 @@ TEST(Library, FollowsThePathAndCrops) {
   EXPECT_EQ(image.left(), 8);
   EXPECT_EQ(image.top(), 4);
   inside.options.crop = Crop{8, 4, 20, 16};
-  EXPECT_TRUE(sameBits(inside.render(cameraAt(inside.scene.cameraPath, 0.5)).image, image));
-}
-
-TEST(Library, PresetsGiveWayToWhatIsSaid) {
-  Renderer renderer(whittedScene());
-  EXPECT_EQ(renderer.get("depth"), "64");
-  EXPECT_EQ(renderer.get("size"), "");
-  renderer.set("depth", "3").set("quality", "good");
-  EXPECT_EQ(renderer.get("depth"), "3");
-  EXPECT_EQ(renderer.get("spp"), "16");
-  EXPECT_EQ(renderer.set("quality", "standard").get("spp"), "1");
+  EXPECT_TRUE(sameBits(inside.render(camera), image));
 }
 
 TEST(Library, TellsWhatAFrameCost) {
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   renderer.render();
   const FrameStatistics& cost = renderer.statistics();
   ASSERT_EQ(cost.stages.size(), kStageCount);
@@ -157,7 +146,7 @@ TEST(Library, TellsWhatAFrameCost) {
 }
 
 TEST(Library, ChannelsAreThoseThatFilesHave) {
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   Image image = renderer.render();
   EXPECT_TRUE(image.channels().empty());
   EXPECT_EQ(statusOf([&] { (void)image.channel("depth"); }), 2);
@@ -174,10 +163,9 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   EXPECT_EQ(object.components, (std::vector<std::string_view>{"id"}));
 
   for (std::size_t i = 0; i < object.numbers.size(); ++i) {
-    EXPECT_EQ(object.numbers[i] == kNothing, std::isinf(depth.values[2 * i]));
-    if (object.numbers[i] != kNothing) {
-      EXPECT_LT(object.numbers[i], whittedScene().objects().size());
-    }
+    const bool isNothing = object.numbers[i] == kNothing;
+    EXPECT_EQ(isNothing, std::isinf(depth.values[2 * i]));
+    EXPECT_TRUE(isNothing || object.numbers[i] < whittedScene().objects().size());
   }
   EXPECT_GT(whittedScene().materials().size(), 0u);
 
@@ -188,11 +176,11 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   ASSERT_EQ(layers.size(), 3u);
   EXPECT_EQ(layers[0].name, "depth.Z");
   EXPECT_EQ(layers[0].floats()[7], depth.values[14]);
-  EXPECT_TRUE(std::equal(object.numbers.begin(), object.numbers.end(), layers[2].words.begin()));
+  EXPECT_TRUE(std::ranges::equal(object.numbers, layers[2].words));
 }
 
 TEST(Library, ImagesAreValues) {
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   const Image first = renderer.render();
   Image second = first;
   renderer.set("depth", "0").render(second);
@@ -207,15 +195,18 @@ TEST(Library, ImagesAreValues) {
 }
 
 TEST(Library, BytesOfAnImageHoldAllOfIt) {
-  Renderer renderer = smallRenderer();
-  renderer.set("background", "transparent").set("crop", "8,4,20,16").set("channels", "depth");
-  const Image image = renderer.render(), same = Image::fromBytes(image.bytes());
+  const Image image = whittedRenderer()
+                          .set("background", "transparent")
+                          .set("crop", "8,4,20,16")
+                          .set("channels", "depth")
+                          .render();
+  const Image same = Image::fromBytes(image.bytes());
   EXPECT_EQ(same.png(), image.png());
   EXPECT_EQ(same.bytes(), image.bytes());
 }
 
 TEST(Library, HandlesThatWereMovedFromSaySo) {
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   Scene scene = renderer.scene();
   SceneBuilder builder;
   const Renderer renderer2 = std::move(renderer);
@@ -248,7 +239,7 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
     EXPECT_EQ(error.status(), 2);
   }
 
-  renderer = smallRenderer();  // a renderer that was moved from can be assigned to
+  renderer = whittedRenderer();  // a renderer that was moved from can be assigned to
   EXPECT_EQ(renderer.render().width(), 40);
 }
 
@@ -260,7 +251,7 @@ TEST(Library, TheVersionIsInTheHeader) {
 }
 
 TEST(Library, FailsWithTheProgramsStatus) {
-  Renderer renderer = smallRenderer();
+  Renderer renderer = whittedRenderer();
   const std::pair<int, std::function<void()>> failures[] = {
       {2, [&] { renderer.set("detph", "3"); }},
       {2, [&] { renderer.set("depth", "many"); }},
@@ -280,7 +271,7 @@ TEST(Library, FailsWithTheProgramsStatus) {
 }
 
 TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
-  EXPECT_EQ(statusOf([] { smallRenderer().set("sphere-segments", "16").render(); }), 2);
+  EXPECT_EQ(statusOf([] { whittedRenderer().set("sphere-segments", "16").render(); }), 2);
   EXPECT_EQ(statusOf([] { loadScene("whitted", {.sphereSegments = 3}); }), 2);
 
   const Scene coarse = loadScene("whitted", {.sphereSegments = 16});
@@ -300,9 +291,7 @@ TEST(Library, ScenesThatAreNotGoodSayWhere) {
 }
 
 TEST(Library, ScenesMoveAndComeBack) {
-  LoadOptions moving;
-  moving.moves = true;
-  const Scene scene = loadScene("orrery", moving);
+  const Scene scene = loadScene("orrery", {.moves = true});
   ASSERT_EQ(scene.animations().size(), 1u);
   EXPECT_EQ(scene.animations()[0].name, "scene");
   EXPECT_EQ(scene.animations()[0].seconds, 10);
@@ -311,26 +300,22 @@ TEST(Library, ScenesMoveAndComeBack) {
   const Image start = renderer.render();
 
   for (const double seconds : {6.5, 2.5}) {
-    Warnings warnings;
     whit::LoadOptions then;
     then.instant.seconds = seconds;
-    const auto expected =
-        whit::Scene::finalize(whit::loadScene("orrery", then, warnings), warnings);
-    RenderOptions options;
-    options.size = ImageSize{40, 24};
-    applySceneOptions(expected.options, {}, options);
-    options.threads = 1;
-
-    whit::Renderer inside(expected, options);
-    Film film = makeFilm(expected, options);
-    inside.render(chooseCamera(expected, options), film);
-    EXPECT_TRUE(sameBits(film.image, renderer.setTime(seconds).render())) << seconds;
+    Inside inside("orrery", then);
+    applySceneOptions(inside.scene.options, {}, inside.options);
+    const Film film = inside.render(chooseCamera(inside.scene, inside.options));
+    EXPECT_TRUE(sameBits(film, renderer.setTime(seconds).render())) << seconds;
   }
 
-  const auto same = [&](const Image& image) { return samePictures(start, image); };
-  EXPECT_FALSE(same(renderer.render()));
-  EXPECT_TRUE(same(still.render())) << "another renderer's scene has moved";
-  EXPECT_TRUE(same(renderer.setTime(0).render()));
+  EXPECT_FALSE(samePictures(start, renderer.render()));
+  EXPECT_TRUE(samePictures(start, still.render())) << "another renderer's scene has moved";
+  EXPECT_TRUE(samePictures(start, renderer.setTime(0).render()));
+
+  // What does not move, or was not loaded to move, has no time.
+  EXPECT_EQ(statusOf([] { whittedRenderer().setTime(1); }), 2);
+  EXPECT_EQ(statusOf([] { smallRenderer("orrery").setTime(1); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.setTime(NAN); }), 2);
 }
 
 std::string writeLoose(const std::filesystem::path& file, const std::string& place) {
@@ -346,54 +331,37 @@ std::string writeLoose(const std::filesystem::path& file, const std::string& pla
 TEST(Library, ThingsAreMovedByHand) {
   const TemporaryFolder folder;
   const std::string loose = writeLoose(folder / "loose.json", "");
-  const std::string placed = writeLoose(
+  const std::string stated = writeLoose(
       folder / "placed.json",
       ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
 
   LoadOptions moving;
   moving.movable = {"/cameras/c", "/lights/0", "/scene/1/group/0"};
-
-  Renderer renderer = smallRenderer(loadScene(loose, moving));
+  Renderer renderer = smallRenderer(loose, moving);
   const Image rest = renderer.render();
-  constexpr std::array<double, 12> kPlace{2, 0, 0, -1, 0, 2, 0, 0.5, 0, 0, 2, 0};
-  for (const std::string& pointer : moving.movable) renderer.setTransform(pointer, kPlace);
-  const Image there = renderer.render();
+  const auto moved = [&](const Matrix& place) {
+    for (const std::string& pointer : moving.movable) renderer.setTransform(pointer, place);
+    return renderer.render();
+  };
+
+  const Image there = moved(placed({-1, 0.5, 0}, {2, 2, 2}));
   EXPECT_FALSE(samePictures(rest, there));
+  EXPECT_TRUE(samePictures(smallRenderer(stated, {.moves = true}).render(), there));
+  EXPECT_TRUE(samePictures(rest, moved(kIdentity)));
 
-  moving.moves = true;
-  moving.movable = {};
-  EXPECT_TRUE(samePictures(smallRenderer(loadScene(placed, moving)).render(), there));
-
-  constexpr std::array<double, 12> kRest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-  for (const char* pointer : {"/lights/0", "/scene/1/group/0", "/cameras/c"}) {
-    renderer.setTransform(pointer, kRest);
+  for (const char* wrong : {"/scene/0", ""}) {
+    EXPECT_EQ(statusOf([&] { renderer.setTransform(wrong, kIdentity); }), 2) << wrong;
   }
-  EXPECT_TRUE(samePictures(rest, renderer.render()));
-
-  EXPECT_EQ(statusOf([&] { renderer.setTransform("/scene/0", kRest); }), 2);
-  EXPECT_EQ(statusOf([&] { renderer.setTransform("", kRest); }), 2);
   for (const double bad : {double{NAN}, 1e300}) {
-    std::array<double, 12> wrong = kRest;
-    wrong[7] = bad;
-    EXPECT_EQ(statusOf([&] { renderer.setTransform("/lights/0", wrong); }), 2) << bad;
+    EXPECT_EQ(statusOf([&] { renderer.setTransform("/lights/0", placed({0, bad, 0})); }), 2) << bad;
   }
-  EXPECT_EQ(statusOf([&] {  // an empty pointer does not mean things without a name
-              Scene keyed = loadScene(placed, moving);
-              Renderer(keyed).setTransform("", kRest);
-            }),
-            2);
+  // An empty pointer does not mean things without a name.
+  moving.moves = true;
+  EXPECT_EQ(statusOf([&] { smallRenderer(stated, moving).setTransform("", kIdentity); }), 2);
   for (const char* wrong : {"/scene/7", ""}) {
     moving.movable = {wrong};
-    EXPECT_EQ(statusOf([&] { loadScene(placed, moving); }), 2) << wrong;
+    EXPECT_EQ(statusOf([&] { loadScene(stated, moving); }), 2) << wrong;
   }
-}
-
-TEST(Library, WhatDoesNotMoveHasNoTime) {
-  EXPECT_EQ(statusOf([] { smallRenderer().setTime(1); }), 2);
-  EXPECT_EQ(statusOf([] { Renderer(loadScene("orrery")).setTime(1); }), 2);
-  LoadOptions moving;
-  moving.moves = true;
-  EXPECT_EQ(statusOf([&] { Renderer(loadScene("orrery", moving)).setTime(NAN); }), 2);
 }
 
 }  // namespace

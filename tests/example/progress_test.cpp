@@ -16,9 +16,7 @@ TEST(Progress, TellsWhatIsGoingOn) {
     return true;
   };
 
-  LoadOptions options;
-  options.progress = note;
-  Renderer renderer = smallRenderer(loadScene("whitted", options));
+  Renderer renderer = smallRenderer("whitted", {.progress = note});
   EXPECT_TRUE(phases.contains("making textures")) << testing::PrintToString(phases);
   EXPECT_TRUE(phases.contains("baking geometry"));
 
@@ -29,52 +27,49 @@ TEST(Progress, TellsWhatIsGoingOn) {
 
 TEST(Progress, LoadingIsEnded) {
   for (const char* at : {"making textures", "reading scene", "baking geometry"}) {
-    LoadOptions options;
-    options.progress = [&](const std::string& phase, double) { return phase != at; };
-    EXPECT_EQ(errorOf([&] { loadScene("whitted", options); }).status(), 130) << at;
+    const LoadOptions ended{.progress = [&](const auto& phase, double) { return phase != at; }};
+    EXPECT_EQ(statusOf([&] { loadScene("whitted", ended); }), 130) << at;
   }
 }
 
 TEST(Progress, WhatWasEndedCanBeDoneAgain) {
-  Renderer renderer = smallRenderer(loadScene("whitted"));
-  const Image expected = smallRenderer(loadScene("whitted")).render();
-  const char* const modes[] = {"packets", "reference"};
-  for (const char* adaptive : {"off", "on"}) {
-    renderer.set("spp", adaptive == std::string("on") ? "4" : "1").set("adaptive", adaptive);
-    for (const char* mode : modes) {
+  Renderer renderer = smallRenderer("whitted");
+  const Image expected = smallRenderer("whitted").render();
+  renderer.set("tile", "8");
+  for (const auto& [adaptive, spp] : {std::pair{"off", "1"}, {"on", "4"}}) {
+    for (const char* mode : {"packets", "reference"}) {
+      renderer.set("adaptive", adaptive).set("spp", spp).set("mode", mode);
       for (const double end : {0.0, 0.3, 0.7}) {
-        renderer.set("mode", mode).set("tile", "8");
         renderer.setProgress([&](const std::string& phase, double fraction) {
           return !phase.starts_with("tracing") || fraction < end;
         });
-        EXPECT_EQ(errorOf([&] { renderer.render(); }).status(), 130) << mode << " " << end;
+        EXPECT_EQ(statusOf([&] { renderer.render(); }), 130) << mode << " " << end;
       }
     }
   }
 
   renderer.setProgress([](const std::string& phase, double) { return phase[0] != 'b'; });
   renderer.set("bvh", "low");
-  EXPECT_EQ(errorOf([&] { renderer.render(); }).status(), 130);
+  EXPECT_EQ(statusOf([&] { renderer.render(); }), 130);
 
   renderer.setProgress({}).reset().set("size", "40x24");
   EXPECT_TRUE(samePictures(expected, renderer.render()));
 }
 
 TEST(Progress, AnEndedReadingAgainLeavesTheScene) {
-  Renderer renderer = smallRenderer(loadScene("whitted"));
+  Renderer renderer = smallRenderer("whitted");
   const Image before = renderer.render();
   renderer.setProgress([](const std::string&, double) { return false; });
-  EXPECT_EQ(errorOf([&] { renderer.setMember("/scene/1/radius", "0.5"); }).status(), 130);
+  EXPECT_EQ(statusOf([&] { renderer.setMember("/scene/1/radius", "0.5"); }), 130);
   EXPECT_TRUE(samePictures(before, renderer.setProgress({}).render()));
 }
 
 TEST(Progress, WhatACallbackThrowsReachesTheCaller) {
-  LoadOptions options;
-  options.progress = [](const std::string&, double) -> bool { throw std::out_of_range("mine"); };
-  EXPECT_THROW(loadScene("whitted", options), std::out_of_range);
+  const Progress throws = [](const auto&, double) -> bool { throw std::out_of_range("mine"); };
+  EXPECT_THROW(loadScene("whitted", {.progress = throws}), std::out_of_range);
 
-  Renderer renderer = smallRenderer(loadScene("whitted"));
-  renderer.setProgress(options.progress);
+  Renderer renderer = smallRenderer("whitted");
+  renderer.setProgress(throws);
   EXPECT_THROW(renderer.render(), std::out_of_range);
   renderer.setProgress({});
   EXPECT_EQ(renderer.render().width(), 40);

@@ -6,16 +6,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <map>
-#include <numeric>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "exact_rays.h"
 #include "has_text.h"
 #include "library/whit.h"
 #include "library_scenes.h"
+#include "make/shapes/mesh_builder.h"
 #include "pi.h"
 
 namespace whit::api {
@@ -73,42 +71,16 @@ WholeScene crossing(std::mt19937& random, std::int64_t reach, const WholePoint& 
   return scene;
 }
 
-// A closed surface: a bumpy octahedron, whose triangles are divided twice.
+// A closed surface: a bumpy ball.
 WholeScene closed(std::mt19937& random, std::int64_t reach, const WholePoint& center) {
   std::uniform_real_distribution<double> bump(0.6, 1);
-  std::vector<std::array<double, 3>> points = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                               {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-  std::vector<std::array<std::size_t, 3>> faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                                   {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-
-  for (int level = 0; level < 2; ++level) {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
-    std::vector<std::array<std::size_t, 3>> finer;
-    const auto middle = [&](std::size_t a, std::size_t b) {
-      const auto [place, isNew] = middles.try_emplace(std::minmax(a, b), points.size());
-      if (isNew) {
-        std::array<double, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) p[k] = points[a][k] + points[b][k];
-        const double length = std::hypot(p[0], p[1], p[2]);
-        for (double& x : p) x /= length;
-        points.push_back(p);
-      }
-      return place->second;
-    };
-
-    for (const auto& [a, b, c] : faces) {
-      const std::size_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    faces = finer;
-  }
+  const auto [points, faces] = procedural::icosphereMesh(1);
 
   std::vector<WholePoint> corners;
-  for (const auto& p : points) {
-    const double size = bump(random) * static_cast<double>(reach);
-    WholePoint corner = center;
-    for (std::size_t k = 0; k < 3; ++k) corner[k] += std::llround(p[k] * size);
-    corners.push_back(corner);
+  for (const Vec3d& point : points) {
+    const Vec3d at = point * (bump(random) * static_cast<double>(reach));
+    corners.push_back({center[0] + std::llround(at.x), center[1] + std::llround(at.y),
+                       center[2] + std::llround(at.z)});
   }
 
   WholeScene scene;
@@ -127,16 +99,12 @@ std::vector<WholeRay> randomRays(std::mt19937& random, const WholeScene& scene, 
   for (std::size_t i = 0; i < count; ++i) {
     const WholePoint origin = randomPoint(random, 4 * reach, center);
     const WholeTriangle& triangle = scene.triangles[any(random)];
-    WholePoint at = randomPoint(random, reach, center);
-    if (aim == Aim::corners) at = triangle[i % 3];
+    // The mean of two points is aimed at: of the ends of an edge, or of the same point twice.
+    const WholePoint anywhere = randomPoint(random, reach, center);
+    const WholePoint& a = aim == Aim::anywhere ? anywhere : triangle[i % 3];
+    const WholePoint& b = aim == Aim::edges ? triangle[(i + 1) % 3] : a;
     WholeRay ray{origin, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      ray.direction[k] = at[k] - origin[k];
-      // A direction of twice the length goes exactly through the middle of an edge.
-      if (aim == Aim::edges) {
-        ray.direction[k] = triangle[i % 3][k] + triangle[(i + 1) % 3][k] - 2 * origin[k];
-      }
-    }
+    for (std::size_t k = 0; k < 3; ++k) ray.direction[k] = a[k] + b[k] - 2 * origin[k];
     if (ray.direction != WholePoint{}) rays.push_back(ray);
   }
   return rays;
@@ -144,7 +112,7 @@ std::vector<WholeRay> randomRays(std::mt19937& random, const WholeScene& scene, 
 
 struct Columns {
   std::vector<double> origins, directions;
-  Rays rays() const { return {{{}, origins}, {{}, directions}}; }
+  operator Rays() const { return {{{}, origins}, {{}, directions}}; }
 };
 
 Columns columnsOf(const std::vector<WholeRay>& rays, double unit) {
@@ -181,9 +149,9 @@ bool isBeyondPromise(const ExactHit& hit) {
 void compare(const WholeScene& scene, const std::vector<WholeRay>& rays, Tally& tally) {
   Renderer renderer = scene.renderer();
   const Columns columns = columnsOf(rays, scene.unit);
-  const RayHits hits = renderer.closest(columns.rays());
-  const RayAnswers blocked = renderer.occluded(columns.rays());
-  const RayHits all = renderer.allHits(columns.rays());
+  const RayHits hits = renderer.closest(columns);
+  const RayAnswers blocked = renderer.occluded(columns);
+  const RayHits all = renderer.allHits(columns);
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::vector<ExactHit> exact = test::exactHits(scene.triangles, rays[i]);
@@ -205,10 +173,8 @@ void compare(const WholeScene& scene, const std::vector<WholeRay>& rays, Tally& 
     right = right && (blocked.yes[i] != 0) == (hits.sides[i] != 0);
 
     const std::size_t first = all.offsets[i], count = all.offsets[i + 1] - first;
-    const bool allCertain =
-        std::all_of(all.certain.begin() + static_cast<std::ptrdiff_t>(first),
-                    all.certain.begin() + static_cast<std::ptrdiff_t>(first + count),
-                    [](std::uint8_t c) { return c != 0; });
+    const auto certain = all.certain.subspan(first, count);
+    const bool allCertain = std::ranges::find(certain, 0) == certain.end();
     // A complete list of certain hits must be the exact list.
     if (allCertain && hits.certain[i] != 0) {
       right = right && count == exact.size();
@@ -277,16 +243,14 @@ Renderer rendererOf(const char* json) {
 }
 
 // Rays down the z axis through points of the plane z = 0, from z = 4.
-struct Downwards {
-  explicit Downwards(const std::vector<std::array<double, 2>>& points) {
-    for (const auto& [x, y] : points) {
-      origins.insert(origins.end(), {x, y, 4});
-      directions.insert(directions.end(), {0, 0, -2});
-    }
+Columns downThrough(const std::vector<std::array<double, 2>>& points) {
+  Columns columns;
+  for (const auto& [x, y] : points) {
+    columns.origins.insert(columns.origins.end(), {x, y, 4});
+    columns.directions.insert(columns.directions.end(), {0, 0, -2});
   }
-  Rays rays() const { return {{{}, origins}, {{}, directions}}; }
-  std::vector<double> origins, directions;
-};
+  return columns;
+}
 
 // Has the mesh of a square of side 1 about the origin, in the plane z = 0.
 SceneBuilder withSquare(const std::string& json) {
@@ -298,6 +262,12 @@ SceneBuilder withSquare(const std::string& json) {
   return builder;
 }
 
+Renderer squaresAt(const std::vector<Matrix>& places, const std::string& json = "{}") {
+  SceneBuilder builder = withSquare(json);
+  for (const Matrix& place : places) builder.addInstance("square", "", place);
+  return Renderer(builder.build());
+}
+
 TEST(RayQueries, FindSpheresInClosedForm) {
   Renderer renderer = rendererOf(R"({"scene": [
       {"shape": "sphere", "radius": 1},
@@ -307,8 +277,8 @@ TEST(RayQueries, FindSpheresInClosedForm) {
   for (int i = 0; i < 400; ++i) points.push_back({-1.2 + 0.006 * i, 0.3});
   for (int i = 0; i < 400; ++i) points.push_back({7.5 + 0.0125 * i, -0.4});
 
-  const Downwards down(points);
-  const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
+  const Columns down = downThrough(points);
+  const RayHits hits = renderer.closest(down), all = renderer.allHits(down);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [x, y] = points[i];
     const bool first = i < 400;
@@ -334,14 +304,12 @@ TEST(RayQueries, FindSpheresInClosedForm) {
 TEST(RayQueries, FindInstancesWhereTheyStand) {
   // The instances are plain, mirrored, turned and stretched, and very small beside the others.
   // The ball stands once, so that the tracer makes no instance of it; numbers count it as well.
-  SceneBuilder builder =
-      withSquare(R"({"scene": [{"shape": "icosphere", "transform": {"translate": [20, 0, 0]}}]})");
-  const std::vector<Matrix> places{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
-                                   {-3, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 1},
+  const std::vector<Matrix> places{kIdentity,
+                                   placed({5, 0, 1}, {-3, 1, 1}),
                                    {0, -2, 0, 0, 1, 0, 0, 5, 0, 0, 1, -1},
-                                   {1e-4, 0, 0, 5, 0, 1e-4, 0, 5, 0, 0, 1, 2}};
-  for (const Matrix& place : places) builder.addInstance("square", "", place);
-  Renderer renderer(builder.build());
+                                   placed({5, 5, 2}, {1e-4, 1e-4, 1})};
+  Renderer renderer = squaresAt(
+      places, R"({"scene": [{"shape": "icosphere", "transform": {"translate": [20, 0, 0]}}]})");
 
   std::mt19937 random(5);
   std::uniform_real_distribution<double> inside(-0.49, 0.49);
@@ -352,8 +320,8 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
     points.push_back({m[0] * x + m[1] * y + m[3], m[4] * x + m[5] * y + m[7]});
   }
 
-  const Downwards down(points);
-  const RayHits hits = renderer.closest(down.rays());
+  const Columns down = downThrough(points);
+  const RayHits hits = renderer.closest(down);
   for (std::size_t i = 0; i < points.size(); ++i) {
     ASSERT_EQ(hits.instances[i], 1 + i % 4);
     EXPECT_EQ(hits.objects[i], 1 + i % 4);
@@ -370,8 +338,8 @@ TEST(RayQueries, HitOneOfCoplanarSurfaces) {
   builder.addInstance("square", "b");  // written later, so it is hit
   Renderer renderer(builder.build());
 
-  const Downwards down({{0.1, 0.2}, {-0.3, 0.05}, {0.7, 0}});
-  const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
+  const Columns down = downThrough({{0.1, 0.2}, {-0.3, 0.05}, {0.7, 0}});
+  const RayHits hits = renderer.closest(down), all = renderer.allHits(down);
   EXPECT_EQ(hits.certain[0] + hits.certain[1] + hits.certain[2], 3);
   EXPECT_EQ(hits.objects[0], 1u);
   EXPECT_EQ(hits.objects[1], 1u);
@@ -380,11 +348,8 @@ TEST(RayQueries, HitOneOfCoplanarSurfaces) {
 }
 
 TEST(RayQueries, CountASharedEdgeOnce) {
-  SceneBuilder builder = withSquare("{}");
-  builder.addInstance("square");
-  Renderer renderer(builder.build());
-  const Downwards down({{0.25, 0.25}});  // on the diagonal
-  const RayHits all = renderer.allHits(down.rays());
+  // The point is on the diagonal.
+  const RayHits all = squaresAt({kIdentity}).allHits(downThrough({{0.25, 0.25}}));
   ASSERT_EQ(all.t.size(), 1u);
   EXPECT_EQ(all.certain[0], 0);
   EXPECT_DOUBLE_EQ(all.t[0], 2);
@@ -395,13 +360,13 @@ TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
       "holes": {"alphaMap": "mask"}, "front": {"doubleSided": false}}})");
   static constexpr float kMask[] = {1, 1, 1, 0};  // gray and alpha: the right half is cut
   builder.addTexture("mask", {2, 1, 2, {}, kMask});
-  builder.addInstance("square", "holes", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1});
-  builder.addInstance("square", "front", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0});
-  builder.addInstance("square", "", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1});
+  builder.addInstance("square", "holes", placed({0, 0, 1}));
+  builder.addInstance("square", "front", placed({}, {-1, 1, -1}));
+  builder.addInstance("square", "", placed({0, 0, -1}));
   Renderer renderer(builder.build());
 
-  const Downwards down({{-0.3, 0.1}, {0.3, 0.1}});
-  const RayHits hits = renderer.closest(down.rays());
+  const Columns down = downThrough({{-0.3, 0.1}, {0.3, 0.1}});
+  const RayHits hits = renderer.closest(down);
   EXPECT_DOUBLE_EQ(hits.t[0], 1.5);
   EXPECT_DOUBLE_EQ(hits.t[1], 2.5);
   EXPECT_EQ(hits.objects[1], 2u);
@@ -411,22 +376,21 @@ TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
 TEST(RayQueries, AnswerAtThePresentTime) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1, "motion":
       {"keys": [{"time": 0}, {"time": 2, "translate": [0, 0, 2]}]}}]})");
-  const Downwards down({{0, 0}});
-  EXPECT_DOUBLE_EQ(renderer.closest(down.rays()).t[0], 1.5);
+  const Columns down = downThrough({{0, 0}});
+  EXPECT_DOUBLE_EQ(renderer.closest(down).t[0], 1.5);
   renderer.setTime(1);
-  EXPECT_DOUBLE_EQ(renderer.closest(down.rays()).t[0], 1);
+  EXPECT_DOUBLE_EQ(renderer.closest(down).t[0], 1);
 }
 
 TEST(RayQueries, CountHitsBetweenTheLimits) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
-  const Downwards down({{0.1, 0.1}});
+  const Columns down = downThrough({{0.1, 0.1}});
 
-  const double near = renderer.closest(down.rays()).t[0];
+  const double near = renderer.closest(down).t[0];
   const auto tOf = [&](double from, double to) {
-    const double limits[] = {from, to};
-    Rays rays = down.rays();
-    rays.near.doubles = {limits, 1};
-    rays.far.doubles = {limits + 1, 1};
+    Rays rays = down;
+    rays.near.doubles = {&from, 1};
+    rays.far.doubles = {&to, 1};
     return renderer.closest(rays).t[0];
   };
 
@@ -449,10 +413,10 @@ TEST(RayQueries, DoNotDependOnTheOtherRays) {
 
   Renderer renderer = scene.renderer();
   const Columns columns = columnsOf(rays, 1);
-  const RayHits together = renderer.set("threads", "3").closest(columns.rays());
+  const RayHits together = renderer.set("threads", "3").closest(columns);
   for (std::size_t i = 0; i < rays.size(); i += 7) {
     const Columns one = columnsOf({rays[i]}, 1);
-    const RayHits alone = renderer.closest(one.rays());
+    const RayHits alone = renderer.closest(one);
     ASSERT_EQ(alone.t[0], together.t[i]) << i;
     ASSERT_EQ(alone.triangles[0], together.triangles[i]) << i;
     ASSERT_EQ(alone.certain[0], together.certain[i]) << i;
@@ -463,27 +427,20 @@ TEST(RayQueries, TakeFloatsAsDoubles) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
   const float origin[] = {0.1f, 0.2f, 4}, direction[] = {0, 0.1f, -1};
   const double origin2[] = {double{0.1f}, double{0.2f}, 4}, direction2[] = {0, double{0.1f}, -1};
-  const RayHits a = renderer.closest({{origin, {}}, {direction, {}}}),
-                b = renderer.closest({{{}, origin2}, {{}, direction2}});
-  EXPECT_EQ(a.t[0], b.t[0]);
-  EXPECT_TRUE(std::isfinite(a.t[0]));
+  const double t = renderer.closest({{origin, {}}, {direction, {}}}).t[0];
+  EXPECT_EQ(t, renderer.closest({{{}, origin2}, {{}, direction2}}).t[0]);
+  EXPECT_TRUE(std::isfinite(t));
 }
 
 TEST(RayQueries, SayWhatTheyCannotTake) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
   const std::vector<double> three{0, 0, 4}, six{0, 0, -1, 0, 0, -1}, four{0, 0, -1, 0};
 
-  const auto statusOfRays = [&](const Rays& rays) {
-    return errorOf([&] { renderer.closest(rays); }).status();
-  };
-
-  EXPECT_EQ(statusOfRays({{{}, three}, {{}, six}}), 2);
-  EXPECT_EQ(statusOfRays({{{}, four}, {{}, four}}), 2);
-  EXPECT_EQ(statusOfRays({{{}, six}, {{}, six}, {{}, three}}), 2);
-  EXPECT_EQ(errorOf([&] {
-              renderer.ambientOcclusion({{}, three}, {{}, three}, 0, 4);
-            }).status(),
-            2);
+  for (const Rays& rays : {Rays{{{}, three}, {{}, six}}, Rays{{{}, four}, {{}, four}},
+                           Rays{{{}, six}, {{}, six}, {{}, three}}}) {
+    EXPECT_EQ(statusOf([&] { renderer.closest(rays); }), 2);
+  }
+  EXPECT_EQ(statusOf([&] { renderer.ambientOcclusion({{}, three}, {{}, three}, 0, 4); }), 2);
 
   // Rays without a direction, or with numbers that are not finite, hit nothing and are not certain.
   const double nan = std::nan("");
@@ -496,8 +453,7 @@ TEST(RayQueries, SayWhatTheyCannotTake) {
   }
   EXPECT_EQ(hits.certain[3], 0);
 
-  const RayHits none = renderer.closest({});
-  EXPECT_EQ(none.t.size(), 0u);
+  EXPECT_TRUE(renderer.closest({}).t.empty());
 }
 
 // A square above the point, of half-side a in the height h, hides this share of the light of an
@@ -509,27 +465,22 @@ double coveredBySquare(double a, double h) {
 }
 
 TEST(RayQueries, FindAmbientOcclusionInClosedForm) {
-  SceneBuilder builder = withSquare("{}");
-  builder.addInstance("square", "", {100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 1, 0});
-  builder.addInstance("square", "", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1});
-  Renderer renderer(builder.build());
-
-  const double point[] = {0, 0, 0}, normal[] = {0, 0, 1};
+  Renderer renderer = squaresAt({placed({}, {100, 100, 1}), placed({0, 0, 1}, {2, 2, 1})});
   constexpr int kSamples = 4096;
+  const auto openWithin = [&](double radius) {
+    const double point[] = {0, 0, 0}, normal[] = {0, 0, 1};
+    return renderer.ambientOcclusion({{}, point}, {{}, normal}, radius, kSamples)[0];
+  };
+
   // An even lattice of N points is off by less than the half of 1/sqrt(N) of random ones.
-  EXPECT_NEAR(renderer.ambientOcclusion({{}, point}, {{}, normal}, 10, kSamples)[0],
-              1 - coveredBySquare(1, 1), 0.5 / std::sqrt(kSamples));
-  EXPECT_EQ(renderer.ambientOcclusion({{}, point}, {{}, normal}, 0.5, kSamples)[0], 1);
+  EXPECT_NEAR(openWithin(10), 1 - coveredBySquare(1, 1), 0.5 / std::sqrt(kSamples));
+  EXPECT_EQ(openWithin(0.5), 1);
 }
 
 TEST(RayQueries, SeeFromSurfaceToSurface) {
-  SceneBuilder builder = withSquare("{}");
   // A floor, a ceiling and a screen between, far from the origin.
-  for (const double height : {0.0, 2.0}) {
-    builder.addInstance("square", "", {8, 0, 0, 3000, 0, 8, 0, 1000, 0, 0, 1, height});
-  }
-  builder.addInstance("square", "", {1, 0, 0, 3000, 0, 1, 0, 1000, 0, 0, 1, 1});
-  Renderer renderer(builder.build());
+  Renderer renderer = squaresAt({placed({3000, 1000, 0}, {8, 8, 1}),
+                                 placed({3000, 1000, 2}, {8, 8, 1}), placed({3000, 1000, 1})});
 
   std::vector<double> floor, ceiling, normals;
   std::vector<std::uint8_t> expected;
@@ -555,7 +506,7 @@ TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   const std::string model = folder / "far.obj";
   std::ofstream(model) << "v 4000000.1 500000.2 10\nv 4000001.1 500000.2 10\n"
                           "v 4000000.1 500001.2 10\nf 1 2 3\n";
-  Renderer renderer(loadScene(model, {.settings = {"/up=\"y\""}}));
+  Renderer renderer = smallRenderer(model, {.settings = {"/up=\"y\""}});
   constexpr double kRounding = 1.2e-7;  // of coordinates below 2
 
   // Beside the hypotenuse, on either side of it.
@@ -563,10 +514,10 @@ TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   const std::vector<double> from{4000000.1 + inside,  500000.2 + 0.5, 12,
                                  4000000.1 + outside, 500000.2 + 0.5, 12};
   const std::vector<double> down{0, 0, -1, 0, 0, -1};
-  const Rays rays{.origins = {{}, from}, .directions = {{}, down}};
+  const Columns rays{from, down};
   const RayHits hits = renderer.closest(rays);
   EXPECT_NEAR(hits.t[0], 2, kRounding);
-  EXPECT_EQ(hits.triangles[1], 0xffffffffu);
+  EXPECT_EQ(hits.triangles[1], kNone);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(hits.points[i], from[i], kRounding);
   EXPECT_NEAR(hits.points[2], 10, kRounding);
   EXPECT_EQ(renderer.occluded(rays).yes, (std::vector<std::uint8_t>{1, 0}));
@@ -579,7 +530,7 @@ TEST(RayQueries, AreInCoordinatesOfAFarFile) {
   EXPECT_EQ(renderer.ambientOcclusion({{}, from}, {{}, up}, 10, 16), (std::vector<float>{1, 1}));
 
   // The camera of such a scene comes back.
-  const Image first = renderer.set("size", "40x24").render();
+  const Image first = renderer.render();
   EXPECT_TRUE(samePictures(renderer.lookThrough(renderer.scene().camera()).render(), first));
   EXPECT_TRUE(hasText(renderer.scene().camera(), "\"at\":[400000"));
 }

@@ -21,15 +21,8 @@ Scene sheetScene(const Corners& corners) {
   builder.addMesh("sheet", sheet(corners));
   builder.addInstance("sheet");
   builder.addCamera("front", {{0.5, 2, 4}, {0, 0, 0}});
-
-  Light lamp;
-  lamp.position = {1, 4, 2};
-  lamp.intensity = {30, 30, 30};
-  builder.addLight(lamp);
-
-  LoadOptions options;
-  options.movable = {"/scene/0"};
-  return builder.build(options);
+  builder.addLight({.position = {1, 4, 2}, .intensity = {30, 30, 30}});
+  return builder.build({.movable = {"/scene/0"}});
 }
 
 TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
@@ -48,12 +41,12 @@ TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
 }
 
 TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
-  constexpr Matrix kRaised{1, 0, 0, 0.25, 0, 1, 0, 0.5, 0, 0, 1, 0};
   Renderer expected = smallRenderer(sheetScene(kBentCorners));
-  expected.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
-
   Renderer renderer = smallRenderer(sheetScene(kFlatCorners));
-  renderer.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
+  for (Renderer* changed : {&expected, &renderer}) {
+    changed->setMember("/lights/0/intensity", "60")
+        .setTransform("/scene/0", placed({0.25, 0.5, 0}));
+  }
   renderer.updateMesh("sheet", sheet(kBentCorners));
   const Image picture = renderer.render();
   EXPECT_TRUE(samePictures(picture, expected.render()));
@@ -64,14 +57,25 @@ TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
   EXPECT_TRUE(samePictures(renderer.render(), picture));
 }
 
+// As do members and transforms.
 TEST(UpdateMesh, LeavesTheScenesOfOthersAlone) {
   const Scene scene = sheetScene(kFlatCorners);
-  Renderer changed = smallRenderer(scene), other = smallRenderer(scene);
+  Renderer other = smallRenderer(scene);
   const Image before = other.render();
-  changed.updateMesh("sheet", sheet(kBentCorners));
-  EXPECT_FALSE(samePictures(changed.render(), before));
-  EXPECT_TRUE(samePictures(other.render(), before));
-  EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+  const std::function<void(Renderer&)> changes[] = {
+      [](Renderer& r) { r.updateMesh("sheet", sheet(kBentCorners)); },
+      [](Renderer& r) { r.setMember("/lights/0/intensity", "4"); },
+      [](Renderer& r) {
+        r.setTransform("/scene/0", placed({0, 0.5, 0}));
+      },
+  };
+  for (const auto& change : changes) {
+    Renderer changed = smallRenderer(scene);
+    change(changed);
+    EXPECT_FALSE(samePictures(changed.render(), before));
+    EXPECT_TRUE(samePictures(other.render(), before));
+    EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+  }
 }
 
 TEST(UpdateMesh, RefusesWhatIsNoMesh) {
@@ -89,8 +93,8 @@ TEST(UpdateMesh, RefusesWhatIsNoMesh) {
   EXPECT_EQ(refused.place(), "/scene/0/mesh");
   EXPECT_TRUE(samePictures(renderer.render(), before));
 
-  Renderer file = smallRenderer(loadScene("whitted"));
-  EXPECT_EQ(errorOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }).status(), 2);
+  Renderer file = smallRenderer("whitted");
+  EXPECT_EQ(statusOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }), 2);
 }
 
 }  // namespace

@@ -1,64 +1,54 @@
 """The same bits as the program's, whatever happens around a picture."""
 
-import threading
+import gc
 import unittest
 
 import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, pixels, program, scene_of, temporary_folder
+from samples import (SIZE, assert_same, error_of, expect_picture, in_threads, pixels, scene_of,
+                     temporary_folder)
+from whit import _options
 
 CASES = [
-    ("whitted", {}, {}, []),
-    ("whitted", {}, {"spp": 4, "adaptive": True, "camera": "above", "depth": 5},
-     ["--spp", "4", "--adaptive", "on", "--camera", "above", "--depth", "5"]),
-    ("whitted", {"settings": {"/lights/0/intensity": 40.5, "/materials/floor/diffuse": [1, 0, 0.25]}},
-     {"eye": (1, 2.5, 5), "fov": 40.25, "crop": (8, 4, 30, 20)},
-     ["--set", "/lights/0/intensity=40.5", "--set", "/materials/floor/diffuse=[1,0,0.25]",
-      "--eye", "1,2.5,5", "--fov", "40.25", "--crop", "8,4,30,20"]),
-    ("glossy", {}, {"glossy": 2, "light_samples": 3, "tonemap": "filmic"},
-     ["--glossy", "2", "--light-samples", "3", "--tonemap", "filmic"]),
-    ("matte", {}, {"mode": "reference", "threads": 1}, ["--mode", "reference", "--threads", "1"]),
-    ("landscape?triangles=2000", {}, {"texture_filter": "trilinear"},
-     ["--texture-filter", "trilinear"]),
+    ("whitted", {}, {}),
+    ("whitted", {}, {"spp": 4, "adaptive": True, "camera": "above", "depth": 5}),
+    ("whitted", {"/lights/0/intensity": 40.5, "/materials/floor/diffuse": [1, 0, 0.25]},
+     {"eye": (1, 2.5, 5), "fov": 40.25, "crop": (8, 4, 30, 20)}),
+    ("glossy", {}, {"glossy": 2, "light_samples": 3, "tonemap": "filmic"}),
+    ("matte", {}, {"mode": "reference", "threads": 1}),
+    ("landscape?triangles=2000", {}, {"texture_filter": "trilinear"}),
 ]
 
 
-def by_program(name, words):
-    program("render", name, "-o", "program.exr", "--size", "48x30", "--quiet", *words)
-    program("render", name, "-o", "program.png", "--size", "48x30", "--quiet", *words)
+def words_of(settings, options):
+    """The same on the command line."""
+    words = [f"--set={pointer}={value}" for pointer, value in settings.items()]
+    for keyword, value in options.items():
+        words += ["--" + keyword.replace("_", "-"), _options.OPTIONS[keyword].text(value)]
+    return words
 
 
 class Bits(unittest.TestCase):
     def test_pictures_are_those_of_the_program(self):
         with temporary_folder():
-            for name, load, options, words in CASES:
+            for name, settings, options in CASES:
                 with self.subTest(name=name, **options):
-                    by_program(name, words)
-                    picture = whit.Scene(name, **load).render(size=SIZE, **options)
-                    picture.write("module.exr")
-                    picture.write("module.png")
-                    for kind in ("exr", "png"):
-                        program("compare", f"module.{kind}", f"program.{kind}", "--tolerance", "0",
-                                "--quiet")
+                    picture = whit.Scene(name, settings=settings).render(size=SIZE, **options)
+                    expect_picture(picture, name, *words_of(settings, options))
 
     def test_they_are_told_from_others(self):
-        with temporary_folder():
-            by_program("whitted", ["--depth", "1"])
-            whit.Scene("whitted").render(size=SIZE).write("module.exr")
-            with self.assertRaises(AssertionError):
-                program("compare", "module.exr", "program.exr", "--tolerance", "0", "--quiet")
+        with temporary_folder(), self.assertRaisesRegex(AssertionError, "^whit compare"):
+            expect_picture(whit.Scene("whitted").render(size=SIZE), "whitted", "--depth", "1")
 
     def test_time_is_that_of_the_program(self):
         with temporary_folder():
-            by_program("orrery", ["--time", "2.5"])
             scene = whit.Scene("orrery", moves=True)
             scene.set_time(6)
             scene.render(size=SIZE)
             scene.set_time(2.5)
-            scene.render(size=SIZE).write("module.exr")
-            program("compare", "module.exr", "program.exr", "--tolerance", "0", "--quiet")
+            expect_picture(scene.render(size=SIZE), "orrery", "--time", "2.5")
 
     def test_what_is_set_between_pictures(self):
         scene = whit.Scene("whitted")
@@ -66,12 +56,9 @@ class Bits(unittest.TestCase):
         for pointer, value in {"/lights/0/intensity": 40, "/cameras/main/eye": np.array([1, 2, 5.5]),
                                "/scene/1/radius": np.float64(0.5)}.items():
             scene.set(pointer, value)
-            fresh = whit.Scene("whitted", settings={pointer: value})
-            fresh.render(size=SIZE)
-        settings = {"/lights/0/intensity": 40, "/cameras/main/eye": [1, 2, 5.5],
-                    "/scene/1/radius": 0.5}
-        expected = whit.Scene("whitted", settings=settings).render(size=SIZE)
-        assert_array_equal(pixels(scene), expected.rgb)
+            whit.Scene("whitted", settings={pointer: value}).render(size=SIZE)
+        assert_same(scene, whit.Scene("whitted", settings={
+            "/lights/0/intensity": 40, "/cameras/main/eye": [1, 2, 5.5], "/scene/1/radius": 0.5}))
 
     def test_a_budget_chooses_options_that_make_the_same_picture(self):
         scene = whit.Scene("whitted")
@@ -92,53 +79,39 @@ class Bits(unittest.TestCase):
         scene = whit.Scene("whitted")
         before = pixels(scene)
         self.assertFalse(np.array_equal(before, scene.render(size=SIZE, depth=0).rgb))
-        with self.assertRaises(whit.Error):
-            scene.render(size=SIZE, depth=0, spp=-1)
+        error_of(scene.render, size=SIZE, depth=0, spp=-1)
         assert_array_equal(before, pixels(scene))
 
     def test_pictures_outlive_their_scene_and_those_that_follow(self):
         scene = whit.Scene("whitted")
         picture = scene.render(size=SIZE)
-        kept, rgb = picture.rgb.copy(), picture.rgb
+        kept, rgb, lent = picture.rgb.copy(), picture.rgb, np.from_dlpack(picture.rgb)
         scene.render(size=SIZE, depth=0)
         del scene, picture
-        assert_array_equal(kept, rgb)
+        gc.collect()
+        for array in (rgb, lent):
+            assert_array_equal(kept, array)
 
     def test_four_threads_render_four_scenes_at_once(self):
-        names = ["whitted", "glossy", "matte", "orrery"]
-        expected = {name: whit.Scene(name).render(size=SIZE, spp=2).rgb for name in names}
-        wrong = []
-
         def work(name):
             scene = whit.Scene(name)
-            for _ in range(12):
-                if not np.array_equal(scene.render(size=SIZE, spp=2).rgb, expected[name]):
-                    wrong.append(name)
+            return [scene.render(size=SIZE, spp=2).rgb for _ in range(12)]
 
-        threads = [threading.Thread(target=work, args=(name,)) for name in names]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(wrong, [])
+        names = ["whitted", "glossy", "matte", "orrery"]
+        for name, found in zip(names, in_threads(work, names)):
+            expected = whit.Scene(name).render(size=SIZE, spp=2).rgb
+            for rgb in found:
+                assert_array_equal(rgb, expected)
 
     def test_threads_take_turns_at_one_scene(self):
         scene = scene_of()
-        expected = {depth: scene.render(size=SIZE, eye=(depth, 3, 2)).rgb for depth in range(4)}
-        wrong = []
 
         def work(depth):
-            for _ in range(25):
-                picture = scene.render(size=SIZE, eye=(depth, 3, 2))
-                if not np.array_equal(picture.rgb, expected[depth]):
-                    wrong.append(depth)
+            return [scene.render(size=SIZE, eye=(depth, 3, 2)).rgb for _ in range(25)]
 
-        threads = [threading.Thread(target=work, args=(depth,)) for depth in expected]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(wrong, [])
+        for depth, found in enumerate(in_threads(work, range(4))):
+            for rgb in found:
+                assert_array_equal(rgb, scene.render(size=SIZE, eye=(depth, 3, 2)).rgb)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,13 @@
 """Cameras with a matrix K: poses, pixels, depths and points, against pictures."""
 
 import unittest
+from pathlib import Path
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import scene_of, temporary_folder
+from samples import error_of, scene_of, temporary_folder
 
 SIZE = (64, 48)
 K = np.array([[70.0, 3, 30.5], [0, 66, 21.25], [0, 0, 1]])
@@ -23,9 +24,19 @@ def pose(axes="opencv"):
     return matrix
 
 
-def wall():
-    return whit.Scene({"scene": [{"shape": "quad", "width": 40, "depth": 40,
+CAMERA = whit.Camera.from_k(K, pose(), SIZE)
+PIXELS = np.stack(np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1])), -1)
+
+
+def positions_of_wall(camera):
+    """What a camera without distortion sees of a wall in the plane z = 0: the positions of its
+    channel, to which its depths lead as well."""
+    wall = whit.Scene({"scene": [{"shape": "quad", "width": 40, "depth": 40,
                                   "transform": {"rotate": [1, 0, 0, 90]}}]})
+    picture = wall.render(camera=camera, channels=["depth", "position"])
+    if "distortion" not in camera.members:
+        assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"], atol=2e-5)
+    return picture["position"]
 
 
 class Cameras(unittest.TestCase):
@@ -34,54 +45,39 @@ class Cameras(unittest.TestCase):
             camera = whit.Camera.from_k(K, pose(axes), SIZE, axes)
             assert_allclose(camera.pose, pose(axes), atol=1e-6)
             assert_array_equal(camera.k, K)
-        same = whit.Camera.from_k(K, pose("opengl"), SIZE, axes="opengl")
-        assert_allclose(same.members["at"], whit.Camera.from_k(
-            K, pose("opencv"), SIZE).members["at"], atol=1e-12)
+        assert_allclose(camera.members["at"], CAMERA.members["at"], atol=1e-12)
 
     def test_pixels_are_those_of_opencv(self):
-        camera = whit.Camera.from_k(K, pose(), SIZE)
         points = np.random.default_rng(1).uniform(-1, 1, (5, 7, 3))
-        seen = (points - pose()[:3, 3]) @ pose()[:3, :3] @ K.T
-        assert_allclose(camera.project(points), seen[..., :2] / seen[..., 2:], atol=1e-4)
-        behind = pose()[:3, 3] - pose()[:3, 2]
-        self.assertTrue(np.isnan(camera.project(behind)).all())
+        place = pose()
+        seen = (points - place[:3, 3]) @ place[:3, :3] @ K.T
+        assert_allclose(CAMERA.project(points), seen[..., :2] / seen[..., 2:], atol=1e-4)
+        self.assertTrue(np.isnan(CAMERA.project(place[:3, 3] - place[:3, 2])).all())
 
     def test_points_come_back_from_pixels_and_depths(self):
-        camera = whit.Camera.from_k(K, pose(), SIZE)
         points = np.random.default_rng(2).uniform(-1, 1, (6, 3))
-        depths = (points - camera.pose[:3, 3]) @ camera.pose[:3, 2]
-        back = camera.unproject(depths, camera.project(points))
-        assert_allclose(back, points, atol=1e-12)
+        depths = (points - CAMERA.pose[:3, 3]) @ CAMERA.pose[:3, 2]
+        assert_allclose(CAMERA.unproject(depths, CAMERA.project(points)), points, atol=1e-12)
 
     def test_pictures_of_other_sizes_scale_the_matrix(self):
-        members = whit.Camera.from_k(K, pose(), SIZE).members
-        camera = whit.Camera(members, (2 * SIZE[0], 3 * SIZE[1]))
+        camera = whit.Camera(CAMERA.members, (2 * SIZE[0], 3 * SIZE[1]))
         # From corner to corner of a pixel, as centers do not scale.
-        scale = np.array([[2, 0, 0.5], [0, 3, 1], [0, 0, 1]])
-        assert_allclose(camera.k, scale @ K, atol=1e-12)
-        picture = wall().render(camera=camera, channels=["depth", "position"])
-        assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"], atol=2e-5)
+        assert_allclose(camera.k, np.array([[2, 0, 0.5], [0, 3, 1], [0, 0, 1]]) @ K, atol=1e-12)
+        positions_of_wall(camera)
 
     def test_a_depth_picture_becomes_points(self):
-        camera = whit.Camera.from_k(K, pose("opengl"), SIZE, "opengl")
-        picture = wall().render(camera=camera, channels=["depth", "position"])
-        self.assertEqual((picture.width, picture.height), SIZE)
-        points = camera.unproject(picture["depth.Z"])
-        assert_allclose(points, picture["position"], atol=2e-5)
+        points = positions_of_wall(CAMERA)
         assert_allclose(points[..., 2], 0, atol=2e-5)
-        x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
-        assert_allclose(camera.project(points), np.stack([x, y], -1), atol=1e-3)
+        assert_allclose(CAMERA.project(points), PIXELS, atol=1e-3)
 
     def test_far_models_are_seen_in_coordinates_of_their_file(self):
         far = np.array([4000000.1, 0, 500000.2])
         with temporary_folder():
-            with open("far.obj", "w", encoding="utf-8") as file:
-                for x, z in ((-20, -20), (-20, 20), (20, 20), (20, -20)):
-                    print("v", *(far + (x, 0, z)), file=file)
-                print("f 1 2 3 4", file=file)
+            corners = far + [(-20, 0, -20), (-20, 0, 20), (20, 0, 20), (20, 0, -20)]
+            Path("far.obj").write_text(
+                "".join("v {} {} {}\n".format(*corner) for corner in corners) + "f 1 2 3 4\n")
             scene = whit.Scene("far.obj")
-        x, y, z = far + (0, 4, 0)
-        down = [[1, 0, 0, x], [0, 0, -1, y], [0, 1, 0, z]]
+        down = np.column_stack([[[1, 0, 0], [0, 0, -1], [0, 1, 0]], far + (0, 4, 0)])
         for camera in (scene.camera(), whit.Camera.from_k(K, down, SIZE)):
             picture = scene.render(camera=camera, size=SIZE, channels=["depth", "position"])
             points = whit.Camera(camera.members, SIZE).unproject(picture["depth.Z"])
@@ -97,19 +93,15 @@ class Cameras(unittest.TestCase):
 
     def test_distortion_moves_what_is_projected(self):
         camera = whit.Camera.from_k(K, pose(), SIZE, distortion=[-0.2, 0.05, 0.01, -0.02, 0.01])
-        picture = wall().render(camera=camera, channels=["position"])
-        x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
-        assert_allclose(camera.project(picture["position"]), np.stack([x, y], -1), atol=2e-3)
-        with self.assertRaisesRegex(whit.Error, "position"):
-            camera.unproject(np.ones(SIZE[::-1]))
+        assert_allclose(camera.project(positions_of_wall(camera)), PIXELS, atol=2e-3)
+        self.assertIn("position", str(error_of(camera.unproject, np.ones(SIZE[::-1]))))
 
     def test_a_description_takes_a_camera_and_gives_it_back(self):
-        given = whit.Camera.from_k(K, pose(), SIZE)
-        scene = whit.Scene({"size": SIZE, "cameras": {"a": given, "b": {
+        scene = whit.Scene({"size": SIZE, "cameras": {"a": CAMERA, "b": {
             "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 30}}, "scene": []})
         for camera in (scene.camera(), scene.camera("a")):
             assert_array_equal(camera.k, K)
-            assert_allclose(camera.pose, given.pose, atol=1e-6)
+            assert_allclose(camera.pose, CAMERA.pose, atol=1e-6)
         back = scene.camera("b", axes="opengl")
         self.assertAlmostEqual(back.fov, 30)
         wanted = np.eye(4)
@@ -117,17 +109,15 @@ class Cameras(unittest.TestCase):
         assert_allclose(back.pose, wanted, atol=1e-12)
         assert_allclose(back.k[1, 1], 24 / np.tan(np.radians(15)))
         assert_array_equal(back.k[:2, 2], [31.5, 23.5])
-        self.assertAlmostEqual(given.fov, np.degrees(np.arctan(21.75 / 66) + np.arctan(26.25 / 66)))
-        with self.assertRaisesRegex(whit.Error, "'c'"):
-            scene.camera("c")
+        self.assertAlmostEqual(CAMERA.fov, np.degrees(np.arctan(21.75 / 66) + np.arctan(26.25 / 66)))
+        self.assertIn("'c'", str(error_of(scene.camera, "c")))
 
     def test_pictures_narrower_than_the_aspect_keep_the_width(self):
         camera = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "fov": 40, "aspect": 1.6}, (50, 40))
         across = 1.6 * np.tan(np.radians(20))  # half the width at distance 1
         assert_allclose(camera.k[0, 0], 25 / across)
         self.assertAlmostEqual(camera.fov, 2 * np.degrees(np.arctan(across * 40 / 50)))
-        picture = wall().render(camera=camera, channels=["depth", "position"])
-        assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"], atol=2e-5)
+        positions_of_wall(camera)
 
     def test_a_moving_camera_is_told_where_it_is(self):
         camera = {"eye": [0, 0, 5], "at": [0, 0, 0], "motion": {
@@ -139,35 +129,36 @@ class Cameras(unittest.TestCase):
 
     def test_stereo_pairs_have_no_matrix(self):
         pair = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "stereo": "leftRight"}, (80, 40))
-        with self.assertRaisesRegex(whit.Error, "one eye.*leftRight"):
-            pair.project([0, 0, 0])
+        self.assertRegex(str(error_of(pair.project, [0, 0, 0])), "one eye.*leftRight")
 
     def test_a_camera_holds_for_one_picture(self):
         scene = scene_of()
-        before = scene.render(size=SIZE).rgb
-        same = scene.render(camera=scene.camera(), size=SIZE)
-        assert_array_equal(same.rgb, before)
-        other = scene.render(camera=whit.Camera.from_k(K, pose(), SIZE))
-        self.assertFalse(np.array_equal(other.rgb, before))
-        assert_array_equal(scene.render(size=SIZE).rgb, before)
+
+        def picture(**options):
+            return scene.render(size=SIZE, **options).rgb
+
+        before = picture()
+        assert_array_equal(picture(camera=scene.camera()), before)
+        self.assertFalse(np.array_equal(picture(camera=CAMERA), before))
+        assert_array_equal(picture(), before)
 
     def test_what_is_no_camera(self):
-        for k, place, axes, what in ((np.eye(2), pose(), "opencv", "K"),
-                                     (np.ones((3, 3)), pose(), "opencv", "K"),
-                                     (K + [[0, 0, 0], [1, 0, 0], [0, 0, 0]], pose(), "opencv", "K"),
-                                     (K * [[-1], [1], [1]], pose(), "opencv", "K"),
-                                     (K, 2 * np.eye(3, 4), "opencv", "pose"),
-                                     (K, np.diag([1, 1, -1, 1]), "opencv", "pose"),
-                                     (K, pose(), "opencl", "axes")):
-            with self.assertRaisesRegex(whit.Error, f"^{what}: expected"):
-                whit.Camera.from_k(k, place, SIZE, axes)
+        for what, k, place, axes in (("K", np.eye(2), pose(), "opencv"),
+                                     ("K", np.ones((3, 3)), pose(), "opencv"),
+                                     ("K", K + [[0, 0, 0], [1, 0, 0], [0, 0, 0]], pose(), "opencv"),
+                                     ("K", K * [[-1], [1], [1]], pose(), "opencv"),
+                                     ("pose", K, 2 * np.eye(3, 4), "opencv"),
+                                     ("pose", K, np.diag([1, 1, -1, 1]), "opencv"),
+                                     ("axes", K, pose(), "opencl")):
+            error = error_of(whit.Camera.from_k, k, place, SIZE, axes)
+            self.assertRegex(str(error), f"^{what}: expected")
         panorama = whit.Camera({"eye": [0, 0, 1], "at": [0, 0, 0], "projection": "panorama"}, SIZE)
-        self.assertEqual(scene_of().render(camera=panorama).width, SIZE[0])
-        with self.assertRaisesRegex(whit.Error, "^k: expected a perspective camera"):
-            panorama.project([0, 0, 0])
+        scene = scene_of()
+        self.assertEqual(scene.render(camera=panorama).width, SIZE[0])
+        error = error_of(panorama.project, [0, 0, 0])
+        self.assertRegex(str(error), "^k: expected a perspective camera")
         panorama.members["aperture"] = 0.1
-        with self.assertRaisesRegex(whit.Error, "camera#/aperture"):
-            scene_of().render(camera=panorama)
+        self.assertIn("camera#/aperture", str(error_of(scene.render, camera=panorama)))
 
 
 if __name__ == "__main__":

@@ -1,21 +1,19 @@
 """Scenes in child processes, which os.fork and multiprocessing make, from several threads."""
 
-import multiprocessing
 import os
 import signal
-import subprocess
 import sys
 import threading
 import traceback
 import unittest
+from pathlib import Path
 
 import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, pixels, scene_of, temporary_folder
-
-SECONDS = 60  # a child that hangs is ended by its alarm
+from samples import (SECONDS, SIZE, another_thread_rendering, expect_in_processes, in_threads,
+                     pixels, python, scene_of, temporary_folder)
 
 
 def status_of_child(body):
@@ -32,11 +30,6 @@ def status_of_child(body):
             os._exit(1)
         os._exit(0)
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-
-
-def render_into(scene, queue):
-    signal.alarm(SECONDS)
-    queue.put(pixels(scene))
 
 
 class Fork(unittest.TestCase):
@@ -65,10 +58,9 @@ class Fork(unittest.TestCase):
         def build():
             self.scene.set_time(2)
             assert_array_equal(pixels(self.scene), later)
-            other = whit.Scene("orrery", moves=True)
-            assert_array_equal(pixels(other), self.expected)
-            scene_of().render(size=SIZE)
-            del other, self.scene
+            assert_array_equal(pixels(whit.Scene("orrery", moves=True)), self.expected)
+            pixels(scene_of())
+            del self.scene
 
         self.in_child(build)
 
@@ -77,70 +69,44 @@ class Fork(unittest.TestCase):
         expected = self.scene.closest(origins, -origins).t
 
         def ask():
-            assert_array_equal(self.scene.closest(origins, -origins).t, expected)
-            other = whit.Scene("orrery", moves=True)
-            assert_array_equal(other.closest(origins, -origins).t, expected)
+            for scene in (self.scene, whit.Scene("orrery", moves=True)):
+                assert_array_equal(scene.closest(origins, -origins).t, expected)
 
         self.assertTrue(np.isfinite(expected).any())
         self.in_child(ask)
 
     def test_a_fork_in_another_thread(self):
-        statuses = []
-        thread = threading.Thread(target=lambda: statuses.append(status_of_child(self.render)))
-        thread.start()
-        thread.join()
-        self.assertEqual(statuses, [0])
+        self.assertEqual(in_threads(status_of_child, [self.render]), [0])
 
     def test_a_scene_rendered_in_another_thread(self):
-        scenes = []
-
-        def make():
-            scenes.append(whit.Scene("whitted"))
-            scenes.append(pixels(scenes[0]))
-
-        thread = threading.Thread(target=make)
-        thread.start()
-        thread.join()
-        scene, expected = scenes
+        [scene] = in_threads(whit.Scene, ["whitted"])
+        [expected] = in_threads(pixels, [scene])
         self.in_child(lambda: assert_array_equal(pixels(scene), expected))
 
     def test_pictures_are_written(self):
         with temporary_folder():
             picture = self.scene.render(size=SIZE)
-            for name in ("a.exr", "a.png"):
-                picture.write(name)
-            self.in_child(lambda: [picture.write(name) for name in ("b.exr", "b.png")])
+
+            def write(name):
+                picture.write(f"{name}.exr")
+                picture.write(f"{name}.png")
+
+            write("a")
+            self.in_child(lambda: write("b"))
             for kind in ("exr", "png"):
-                with open(f"a.{kind}", "rb") as a, open(f"b.{kind}", "rb") as b:
-                    self.assertEqual(a.read(), b.read())
+                self.assertEqual(Path(f"a.{kind}").read_bytes(), Path(f"b.{kind}").read_bytes())
 
     def test_other_threads_that_render(self):
         """The child has its own scene; the other thread's gives an error."""
         theirs = whit.Scene("whitted")
-        begun, stop = threading.Event(), threading.Event()
-
-        def progress(phase, fraction):
-            begun.set()
-            return not stop.is_set()
-
-        def work():
-            with self.assertRaises(whit.Error):
-                while True:
-                    theirs.render(size=(640, 400), spp=64, progress=progress)
 
         def in_child():
             self.render()
             with self.assertRaisesRegex(whit.Error, "another thread used the scene"):
                 theirs.render(size=SIZE)
 
-        thread = threading.Thread(target=work)
-        thread.start()
-        begun.wait()
-        try:
+        with another_thread_rendering(theirs):
             self.in_child(in_child)
-        finally:
-            stop.set()
-            thread.join()
 
     def test_a_fork_while_another_thread_builds(self):
         """Embree's locks may be held for ever in the child: an error says so."""
@@ -189,8 +155,7 @@ class Fork(unittest.TestCase):
                    "    sys.exit(0)\n"
                    "sys.exit(os.waitstatus_to_exitcode(os.wait()[1]))\n")
         # From version 3.12 on, Python warns of every fork of a process with threads.
-        done = subprocess.run([sys.executable, "-W", "ignore::DeprecationWarning", "-c", program],
-                              capture_output=True, text=True, check=False, timeout=SECONDS)
+        done = python(program, "-W", "ignore::DeprecationWarning", timeout=SECONDS)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_fork_by_a_progress_function(self):
@@ -214,18 +179,7 @@ class Fork(unittest.TestCase):
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]), 7)
 
     def test_multiprocessing(self):
-        for method in ("fork",):
-            context = multiprocessing.get_context(method)
-            queue = context.Queue()
-            processes = [context.Process(target=render_into, args=(self.scene, queue))
-                         for _ in range(2)]
-            for process in processes:
-                process.start()
-            for process in processes:
-                assert_array_equal(queue.get(timeout=SECONDS), self.expected)
-            for process in processes:
-                process.join()
-                self.assertEqual(process.exitcode, 0)
+        expect_in_processes("fork", self.scene, 2)
 
 
 if __name__ == "__main__":

@@ -15,26 +15,22 @@ FOLDER = pathlib.Path(__file__).resolve().parents[2] / "src" / "python" / "whit"
 HEADER = "# By make_stubs.py, of __init__.py and the library's table of options.\n"
 
 
+# The Python types of options, by the words that stand for their values.
+TYPES = {
+    "": "bool", "on|off": "bool", "N": "int", "X": "float", "DEG": "float", "HEIGHT": "float",
+    "x,y,z": "Sequence[float]",
+    "WxH": "Union[str, tuple[int, int]]",
+    "x0,y0,x1,y1": "Union[str, tuple[int, int, int, int]]",
+    "EV|auto": 'Union[float, Literal["auto"]]',
+    "NAME": "Union[str, Camera]",
+}
+
+
 def _annotation(words):
-    """The Python type of an option's value."""
-    if words in ("", "on|off"):
-        return "bool"
-    if words == "N":
-        return "int"
-    if words in ("X", "DEG", "HEIGHT"):
-        return "float"
-    if words == "x,y,z":
-        return "Sequence[float]"
-    if words == "WxH":
-        return "Union[str, tuple[int, int]]"
-    if words == "x0,y0,x1,y1":
-        return "Union[str, tuple[int, int, int, int]]"
-    if words == "EV|auto":
-        return 'Union[float, Literal["auto"]]'
+    if words in TYPES:
+        return TYPES[words]
     if "COLOR" in words:
         return "Union[str, Sequence[float]]"
-    if words == "NAME":
-        return "Union[str, Camera]"
     if "|" in words:
         choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
         return f"Literal[{', '.join(choices)}]"

@@ -3,20 +3,22 @@
 import errno
 import inspect
 import os
-import pathlib
 import re
 import unittest
 import warnings
+from pathlib import Path
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, scene_of, square_scene, temporary_folder
+from samples import SIZE, error_of, pixels, scene_of, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
-SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+SOURCES = Path(__file__).resolve().parents[2] / "src"
 NOT_IN_THE_LIBRARY = ("cli", "command_line", "output", "accuracy", "python")
+KINDS = {2: ValueError, 3: ValueError, 4: OSError, 5: MemoryError, 130: whit.Error}
 COMMAND_LINE = re.compile(r"(?<![\w-])--[a-z]|[A-Za-z]::[a-z]|POINTER=VALUE|\bset[A-Z][a-z]+\b|updateMesh")
 
 
@@ -50,59 +52,68 @@ class Messages(unittest.TestCase):
     def test_the_documentation_of_render(self):
         self.assertIsNone(COMMAND_LINE.search(whit.Scene.render.__doc__), whit.Scene.render.__doc__)
 
+    def expect(self, status, words, call, *arguments, **named):
+        """Expects an error of that exit status, of Python's own type for it, in Python's words."""
+        with self.subTest(status=status, words=words):
+            error = error_of(call, *arguments, **named)
+            self.assertEqual(error.exit_status, status)
+            self.assertIsInstance(error, KINDS[status])
+            self.assertRegex(str(error), words)
+            self.assertIsNone(COMMAND_LINE.search(str(error)))
+
     def test_errors(self):
         scene = whit.Scene("whitted")
-        cases = [
-            (lambda: scene.render(spp=0), ValueError, "^spp: expected"),
-            (lambda: scene.render(size=SIZE, light_samples="x"), ValueError, "^light_samples: exp"),
-            (lambda: scene.render(size=SIZE, crop=(0, 0, 99, 9)), ValueError, "^crop must lie"),
-            (lambda: scene.render(simd="sse9"), ValueError, "^simd"),
-            (lambda: scene.set_time(1), ValueError, "^set_time: .* made without moves=True$"),
-            (lambda: scene.set_transform("/scene/0", [[1e30] * 4] * 3), ValueError, "^set_transf"),
-            (lambda: scene.set("lights", 4), ValueError, "^'lights=4': expected a JSON pointer such"),
-            (lambda: whit.Scene("whitted", max_memory_gb=-1), ValueError, "^max_memory_gb: expected"),
-            (lambda: whit.Scene("whitted", max_memory_gb=float("nan")), ValueError, "^max_memory_gb"),
-            (lambda: whit.Scene("whitted", threads=-1), ValueError, "^threads: expected a whole"),
-            (lambda: whit.Camera({"eye": [0, 0, 5]}, SIZE), ValueError, '^camera: .* member "at"'),
-            (lambda: whit.Camera({"at": [0, 0, 5]}, SIZE), ValueError, '^camera: .* member "eye"'),
-            (lambda: scene.render(size=64), ValueError, r"^size: expected \(width, height\) in p"),
-            (lambda: scene.render(eye=(0, 1)), ValueError, r"expected three numbers \(x, y, z\), f"),
-            (lambda: scene.set_transform("/scene/0", np.eye(4)), ValueError, r"movable=\[...\]"),
-            (lambda: scene.update_mesh("x", np.zeros((3, 3))), ValueError, "whit.Mesh\\(...\\)"),
-            (lambda: scene.render(size=SIZE).write("x.albedo.png"), ValueError,
-             r"no channel 'albedo': render\(channels=\['albedo'\]\)$"),
-            (lambda: whit.Scene("whitted", sphere_segments=2), ValueError, "^sphere_segments exp"),
-            (lambda: whit.Scene("no-such-scene"), ValueError, "no-such-scene"),
-            (lambda: whit.Scene({"lights": 4}), ValueError, "/lights"),
-            (lambda: whit.Scene("none.json"), FileNotFoundError, "none.json"),
-            (lambda: scene.render(size=SIZE).write("/no/such/a.png"), FileNotFoundError, "such/a.png"),
-            (lambda: scene.render(size=SIZE).write("/proc/a.png"), OSError, "/proc/a.png"),
-            (lambda: whit.Scene("atrium", max_memory_gb=1e-5), MemoryError, "."),
-            (lambda: whit.Scene("landscape", progress=lambda *_: False), whit.Error, "progress"),
-        ]
-        for number, (call, kind, words) in enumerate(cases):
-            with self.subTest(number=number), self.assertRaisesRegex(kind, words) as caught:
-                call()
-            self.assertIsInstance(caught.exception, whit.Error)
-            self.assertIsNone(COMMAND_LINE.search(str(caught.exception)))
-
-    def test_a_camera_is_no_dict(self):
-        with self.assertRaisesRegex(TypeError, r"whit\.Camera\(members, size\)"):
-            whit.Scene("whitted").render(camera={"eye": [0, 0, 5], "at": [0, 0, 0]})
+        picture = scene.render(size=SIZE)
+        for words, options in (("nobody", {"camera": "nobody"}), ("^spp: expected", {"spp": 0}),
+                               ("size", {"size": "wide"}), ("size", {"size": (0, 5)}),
+                               (r"^size: expected \(width, height\) in p", {"size": 64}),
+                               ("filmic", {"tonemap": "flmic"}), ("fov", {"fov": float("nan")}),
+                               (r"expected three numbers \(x, y, z\), f", {"eye": (0, 1)}),
+                               ("^crop must lie", {"crop": (0, 0, 1000, 9)}),
+                               ("sphere_segments", {"sphere_segments": 16}),
+                               ("^simd", {"simd": "sse9"}), ("depth", {"depth": 2**70}),
+                               ("^light_samples: exp", {"light_samples": "x"})):
+            self.expect(2, words, scene.render, **options)
+        for status, words, arguments in (
+                (3, "^max_memory_gb: expected", {"max_memory_gb": -1}),
+                (3, "^max_memory_gb", {"max_memory_gb": float("nan")}),
+                (3, "^threads: expected a whole", {"threads": -1}),
+                (2, "^sphere_segments exp", {"sphere_segments": 2}),
+                (5, ".", {"max_memory_gb": 1e-5}),
+                (130, "progress", {"progress": lambda *_: False})):
+            self.expect(status, words, whit.Scene, "atrium", **arguments)
+        for status, words, call, *arguments in (
+                (2, "^set_time: .* made without moves=True$", scene.set_time, 1),
+                (2, "^set_transf", scene.set_transform, "/scene/0", [[1e30] * 4] * 3),
+                (2, r"movable=\[...\]", scene.set_transform, "/scene/0", np.eye(4)),
+                (3, r"whit.Mesh\(...\)", scene.update_mesh, "x", np.zeros((3, 3))),
+                (2, "^'lights=4': expected a JSON pointer such", scene.set, "lights", 4),
+                (3, "intensity", scene.set, "/lights/0/intensity", "much"),
+                (3, "intensity", scene.set, "/lights/0/intensity", float("inf")),
+                (3, "lights/9", scene.set, "/lights/9/intensity", 4),
+                (3, "nonsense", scene.set, "/nonsense", 4),
+                (3, "radius", scene.set, "/scene/1/radius", -1),
+                (3, '^camera: .* member "at"', whit.Camera, {"eye": [0, 0, 5]}, SIZE),
+                (3, '^camera: .* member "eye"', whit.Camera, {"at": [0, 0, 5]}, SIZE),
+                (2, r"no channel 'albedo': render\(channels=\['albedo'\]\)$",
+                 picture.write, "x.albedo.png"),
+                (2, "a.gif", picture.write, "a.gif"),
+                (4, "/proc/a.png", picture.write, "/proc/a.png"),
+                (2, "no-such-scene", whit.Scene, "no-such-scene"),
+                (3, "/lights", whit.Scene, {"lights": 4})):
+            self.expect(status, words, call, *arguments)
+        # None of them changes the scene.
+        assert_array_equal(pixels(scene), picture.rgb)
 
     def test_errors_of_files_are_those_of_the_system(self):
         picture = whit.Scene("whitted").render(size=SIZE)
         with temporary_folder():
             os.mkdir("folder.png")
-            cases = [
-                (lambda: whit.Scene("none.json"), FileNotFoundError, errno.ENOENT, "none.json"),
-                (lambda: picture.write("no/a.png"), FileNotFoundError, errno.ENOENT, "no/a.png"),
-                (lambda: picture.write("folder.png"), OSError, errno.EISDIR, "folder.png"),
-            ]
-            for call, kind, number, file in cases:
-                with self.subTest(file=file), self.assertRaises(kind) as caught:
-                    call()
-                error = caught.exception
+            for call, number, file in ((whit.Scene, errno.ENOENT, "none.json"),
+                                       (picture.write, errno.ENOENT, "no/a.png"),
+                                       (picture.write, errno.EISDIR, "folder.png")):
+                error = error_of(call, file)
+                self.assertIsInstance(error, OSError)
                 self.assertEqual((error.errno, error.filename, error.file), (number, file, file))
                 self.assertEqual(isinstance(error, FileNotFoundError), number == errno.ENOENT)
                 self.assertRegex(str(error), f"^cannot (open|write) '?{file}'?: ")
@@ -112,6 +123,10 @@ class Messages(unittest.TestCase):
         scene = whit.Scene("whitted")
         for options, words in (({"samples": 4}, "did you mean 'spp'"),
                                ({"width": 64}, "did you mean 'size'"),
+                               ({"sise": SIZE}, "did you mean 'size'"),
+                               ({"depth": object()}, "depth: expected N"),
+                               ({"camera": {"eye": [0, 0, 5], "at": [0, 0, 0]}},
+                                r"whit\.Camera\(members, size\)"),
                                ({"light-samples": 4}, "did you mean 'light_samples'"),
                                ({"nonsense": 64}, r"'nonsense'; help\(whit\.Scene\.render\)"),
                                ({"light_sample": 4}, "did you mean 'light_samples'"),
@@ -135,12 +150,10 @@ class Messages(unittest.TestCase):
 
     def test_files_outside_and_strict(self):
         with temporary_folder():
-            with open("a.json", "w", encoding="utf-8") as file:
-                file.write('{"whit": 1, "sky": {"image": "/etc/passwd"}, "scene": []}')
+            Path("a.json").write_text('{"whit": 1, "sky": {"image": "/etc/passwd"}, "scene": []}')
             with self.assertRaisesRegex(ValueError, r"\(allow_outside=True permits that\)"):
                 whit.Scene("a.json")
-            with open("a.obj", "w", encoding="utf-8") as file:
-                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n")
+            Path("a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n")
             with self.assertWarnsRegex(UserWarning, "^degenerate triangle dropped"):
                 self.assertTrue(whit.Scene("a.obj").warnings)
             with self.assertRaisesRegex(ValueError, r"\(refused by strict=True\)"):

@@ -1,15 +1,15 @@
 """Queries of rays from arrays: shapes, kinds of numbers, and what is refused. What they find is
 tested in tests/example/rays_test.cpp."""
 
-import threading
 import unittest
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import scene_of
+from samples import error_of, in_threads, scene_of
 
+SCENE = scene_of()
 DOWN = np.array([0.0, -1.0, 0.0])
 
 
@@ -20,12 +20,9 @@ def grid(rows, columns):
 
 
 class Rays(unittest.TestCase):
-    def setUp(self):
-        self.scene = scene_of()
-
     def test_shapes_and_values(self):
         points = grid(4, 5)
-        hits = self.scene.closest(points, DOWN)
+        hits = SCENE.closest(points, DOWN)
         inside = (abs(points[..., 0]) < 1) & (abs(points[..., 2]) < 1)
         assert_array_equal(hits.hit, inside)
         assert_array_equal(hits.t, np.where(inside, 2.0, np.inf))
@@ -33,105 +30,94 @@ class Rays(unittest.TestCase):
         self.assertEqual(hits.geometric_normal.shape, (4, 5, 3))
         assert_array_equal(hits.geometric_normal[inside] * hits.side[inside, None],
                            np.tile([0, 1, 0], (inside.sum(), 1)))
-        self.assertTrue((hits.object[inside] == 0).all())
-        self.assertTrue((hits.object[~inside] == 0xffffffff).all())
-        assert_array_equal(self.scene.occluded(points, DOWN), inside)
-        everything = self.scene.all_hits(points, DOWN)
+        assert_array_equal(hits.object, np.where(inside, 0, 0xffffffff))
+        assert_array_equal(SCENE.occluded(points, DOWN), inside)
+        everything = SCENE.all_hits(points, DOWN)
         assert_array_equal(np.diff(everything.offsets.astype(int)), inside.ravel())
         self.assertEqual(everything.point.shape, (inside.sum(), 3))
 
     def test_one_ray(self):
         """Its answers are single numbers; arrays of any leading shape give arrays of that shape."""
-        hits = self.scene.closest([0.25, 2, 0], [0, -1, 0])
+        hits = SCENE.closest([0.25, 2, 0], [0, -1, 0])
         self.assertEqual((hits.t.shape, hits.point.shape, hits.uv.shape), ((), (3,), (2,)))
-        self.assertEqual((hits.t, hits.side, bool(hits.hit)), (2, 1, True))
+        self.assertEqual((hits.t, hits.side, hits.hit), (2, 1, True))
         assert_allclose(hits.point, [0.25, 0, 0], atol=1e-15)
         self.assertEqual(repr(hits), "<whit.Hits: 1 of shape ()>")
-        self.assertFalse(self.scene.closest([3, 2, 0], [0, -1, 0]).hit)
+        self.assertFalse(SCENE.closest([3, 2, 0], DOWN).hit)
 
-        everything = self.scene.all_hits([0.25, 2, 0], [0, -1, 0])
+        everything = SCENE.all_hits([0.25, 2, 0], DOWN)
         self.assertEqual((everything.t.tolist(), everything.offsets.tolist()), ([2], [0, 1]))
-        for origin, expected in ([0.25, 2, 0], True), ([3, 2, 0], False):
-            occluded = self.scene.occluded(origin, [0, -1, 0])
+        for x, expected in (0.25, True), (3, False):
+            occluded = SCENE.occluded([x, 2, 0], DOWN)
             self.assertEqual((occluded.shape, bool(occluded)), ((), expected))
-            seen, certain = self.scene.visible(origin, [origin[0], -1, 0], return_certain=True)
+            seen, certain = SCENE.visible([x, 2, 0], [x, -1, 0], return_certain=True)
             self.assertEqual((seen.shape, bool(seen), bool(certain)), ((), not expected, True))
-        open_ = self.scene.ambient_occlusion([0, 0, 0], [0, 1, 0], 10, 16)
+        open_ = SCENE.ambient_occlusion([0, 0, 0], [0, 1, 0], 10, 16)
         self.assertEqual((open_.shape, open_), ((), 1))
 
         for shape in (1,), (2, 1), (3, 0, 2), (1, 2, 1, 2):
             points = np.zeros((*shape, 3)) + [0.25, 2, 0]
-            hits = self.scene.closest(points, DOWN)
+            hits = SCENE.closest(points, DOWN)
             self.assertEqual((hits.t.shape, hits.point.shape), (shape, (*shape, 3)))
-            self.assertEqual(self.scene.occluded(points, DOWN).shape, shape)
+            self.assertEqual(SCENE.occluded(points, DOWN).shape, shape)
 
     def test_any_kind_of_numbers(self):
         points = grid(3, 3).astype(np.float32)
-        expected = self.scene.closest(points, DOWN).t
-        for kind in (np.float64, np.float16, list):
-            same = points.tolist() if kind is list else points.astype(kind)
-            tolerance = 1e-2 if kind is np.float16 else 0
-            assert_allclose(self.scene.closest(same, DOWN).t, expected, tolerance)
+        expected = SCENE.closest(points, DOWN).t
+        for same, tolerance in ((points.tolist(), 0), (points.astype(float), 0),
+                                (points.astype(np.float16), 1e-2)):
+            assert_allclose(SCENE.closest(same, DOWN).t, expected, tolerance)
         strided = np.asfortranarray(points)[::-1]
-        assert_array_equal(self.scene.closest(strided, DOWN).t, expected[::-1])
+        assert_array_equal(SCENE.closest(strided, DOWN).t, expected[::-1])
 
     def test_limits(self):
         points = grid(3, 3)
-        self.assertFalse(self.scene.occluded(points, DOWN, t_far=1.9).any())
+        self.assertFalse(SCENE.occluded(points, DOWN, t_far=1.9).any())
+        # Only the middle one of these rays meets the square.
         far = np.full((3, 3), 2.5)
+        self.assertTrue(SCENE.occluded(points, DOWN, t_far=far)[1, 1])
         far[1, 1] = 1
-        self.assertFalse(self.scene.occluded(points, DOWN, t_far=far)[1, 1])
+        self.assertFalse(SCENE.occluded(points, DOWN, t_far=far).any())
 
     def test_between_surfaces(self):
         points = np.array([[0.5, 0, 0], [0, 0, 0.5]])
-        self.assertTrue(self.scene.visible(points, [0, 3, 0]).all())
-        seen, certain = self.scene.visible(points + [0, -1, 0], [0, 3, 0], return_certain=True)
-        self.assertFalse(seen.any())
+        self.assertTrue(SCENE.visible(points, [0, 3, 0]).all())
+        seen, certain = SCENE.visible(points + DOWN, [0, 3, 0], return_certain=True)
+        assert_array_equal(seen, [False, False])
         self.assertEqual(certain.shape, (2,))
-        open_ = self.scene.ambient_occlusion(points, [0, 1, 0], 10, 16)
-        assert_array_equal(open_, [1, 1])
+        assert_array_equal(SCENE.ambient_occlusion(points, -DOWN, 10, 16), [1, 1])
 
     def test_nothing_to_ask(self):
-        hits = self.scene.closest(np.empty((0, 3)), np.empty((0, 3)))
+        hits = SCENE.closest(np.empty((0, 3)), np.empty((0, 3)))
         self.assertEqual(hits.point.shape, (0, 3))
-        self.assertEqual(self.scene.all_hits(grid(1, 1) + 9, DOWN).t.shape, (0,))
+        self.assertEqual(SCENE.all_hits(grid(1, 1) + 9, DOWN).t.shape, (0,))
 
     def test_what_is_refused(self):
-        for origins, directions, words in ((np.zeros((2, 2)), DOWN, "origins"),
-                                           (np.zeros((2, 3)), np.zeros((3, 3)), "directions"),
-                                           ("here", DOWN, "origins"),
-                                           (np.zeros(3), None, "directions")):
-            with self.assertRaisesRegex(whit.Error, words):
-                self.scene.closest(origins, directions)
-        with self.assertRaisesRegex(whit.Error, "t_far"):
-            self.scene.closest(np.zeros((2, 3)), DOWN, t_far=np.zeros(3))
-        with self.assertRaisesRegex(ValueError, "limit: expected None or at least 0"):
-            self.scene.all_hits(np.zeros(3), DOWN, limit=-1)
-        with self.assertRaisesRegex(whit.Error, "radius"):
-            self.scene.ambient_occlusion(np.zeros(3), DOWN, -1)
+        three, six = np.zeros(3), np.zeros((2, 3))
+        closest = SCENE.closest
+        for words, ask in (
+                ("origins", lambda: closest(np.zeros((2, 2)), DOWN)),
+                ("origins", lambda: closest("here", DOWN)),
+                ("directions", lambda: closest(six, np.zeros((3, 3)))),
+                ("directions", lambda: closest(three, None)),
+                ("t_far", lambda: closest(six, DOWN, t_far=three)),
+                ("limit: expected None or at least 0",
+                 lambda: SCENE.all_hits(three, DOWN, limit=-1)),
+                ("radius", lambda: SCENE.ambient_occlusion(three, DOWN, -1))):
+            with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
+                ask()
 
     def test_progress_can_end_it(self):
         points = np.zeros((300000, 3)) + [0, 1, 0]
-        with self.assertRaises(whit.Error) as raised:
-            self.scene.closest(points, DOWN, progress=lambda phase, done: False)
-        self.assertEqual(raised.exception.exit_status, 130)
-        self.assertTrue(self.scene.occluded([0, 1, 0], DOWN))
+        error = error_of(SCENE.closest, points, DOWN, progress=lambda *_: False)
+        self.assertEqual(error.exit_status, 130)
+        self.assertTrue(SCENE.occluded([0, 1, 0], DOWN))
 
     def test_threads_ask_in_turn(self):
         points = grid(40, 40)
-        expected = self.scene.closest(points, DOWN).t
-        found = [None] * 4
-
-        def ask(i):
-            found[i] = self.scene.closest(points, DOWN).t
-
-        threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        for t in found:
-            assert_array_equal(t, expected)
+        expected = SCENE.closest(points, DOWN).t
+        for hits in in_threads(SCENE.closest, [points] * 4, [DOWN] * 4):
+            assert_array_equal(hits.t, expected)
 
 
 if __name__ == "__main__":

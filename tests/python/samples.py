@@ -1,15 +1,23 @@
 """What the tests of the Python module share."""
 
+import concurrent.futures
 import contextlib
+import multiprocessing
 import os
+import signal
 import subprocess
+import sys
 import tempfile
+import threading
 
 import numpy as np
+from numpy.testing import assert_array_equal
 
 import whit
 
 SIZE = (48, 30)
+LONG = dict(size=(640, 400), spp=64)  # seconds, if nothing ends it
+SECONDS = 60  # a child that hangs is ended by its alarm
 
 
 @contextlib.contextmanager
@@ -31,6 +39,79 @@ def program(*words):
     if done.returncode != 0:
         raise AssertionError(f"whit {' '.join(words)}: {done.stderr}{done.stdout}")
     return done.stdout
+
+
+def expect_picture(picture, name, *words):
+    """Expects that the program, with these words, makes the same files of a scene."""
+    for kind in ("exr", "png"):
+        picture.write(f"module.{kind}")
+        program("render", name, "-o", f"program.{kind}", "--size", "48x30", "--quiet", *words)
+        program("compare", f"module.{kind}", f"program.{kind}", "--tolerance", "0", "--quiet")
+
+
+def python(code, *flags, **arguments):
+    """The outcome of a Python program; `arguments` are those of subprocess.run."""
+    return subprocess.run([sys.executable, *flags, "-c", code], capture_output=True, text=True,
+                          check=False, **arguments)
+
+
+def in_threads(work, *arguments):
+    """What map(work, *arguments) has, each call on a thread of its own."""
+    with concurrent.futures.ThreadPoolExecutor(len(arguments[0])) as pool:
+        return list(pool.map(work, *arguments))
+
+
+@contextlib.contextmanager
+def another_thread_rendering(scene):
+    """Another thread renders the scene, again and again, while this is entered."""
+    begun, stop = threading.Event(), threading.Event()
+
+    def progress(phase, fraction):
+        begun.set()
+        return not stop.is_set()
+
+    def work():
+        with contextlib.suppress(whit.Error):
+            while True:
+                scene.render(progress=progress, **LONG)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    begun.wait()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
+
+
+def _put_pixels(scene, queue):
+    signal.alarm(SECONDS)
+    queue.put(pixels(scene))
+
+
+def expect_in_processes(method, scene, count):
+    """Expects that so many processes, made by that method, have the picture of the scene."""
+    expected = pixels(scene)
+    context = multiprocessing.get_context(method)
+    queue = context.Queue()
+    processes = [context.Process(target=_put_pixels, args=(scene, queue)) for _ in range(count)]
+    for process in processes:
+        process.start()
+    for _ in processes:
+        assert_array_equal(queue.get(timeout=SECONDS), expected)
+    for process in processes:
+        process.join()
+        assert_array_equal(process.exitcode, 0)
+
+
+def error_of(call, *arguments, **named):
+    """The whit.Error that a call raises."""
+    try:
+        call(*arguments, **named)
+    except whit.Error as error:
+        return error
+    raise AssertionError("nothing was raised")
 
 
 def square(**arrays):
@@ -59,3 +140,8 @@ def scene_of(mesh=None, **members):
 def pixels(scene):
     """The picture of a scene in the size that tests use, as linear colors."""
     return scene.render(size=SIZE).rgb
+
+
+def assert_same(one, other):
+    """Expects the same picture of two scenes, bit for bit."""
+    assert_array_equal(pixels(one), pixels(other))

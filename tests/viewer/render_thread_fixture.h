@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <thread>
@@ -13,34 +14,59 @@
 
 namespace whit::view {
 
+// Waits for a minute at most, which is far longer than a frame of a few thousand pixels takes.
+template <typename Condition>
+bool waitUntil(const Condition& happened) {
+  for (int i = 0; i < 60'000; ++i) {
+    if (happened()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+inline void expectSameFilm(const Film& a, const Film& b) {
+  ASSERT_EQ(a.image.pixels.size(), b.image.pixels.size());
+  EXPECT_EQ(std::memcmp(a.image.pixels.data(), b.image.pixels.data(),
+                        a.image.pixels.size() * sizeof(Rgb)),
+            0);
+  EXPECT_EQ(a.display.rgba, b.display.rgba);
+}
+
 class RenderThreadTest : public testing::Test {
  protected:
   RenderThreadTest() {
     common_.quiet = true;
     common_.render.threads = 2;
-    name_ = cli::writeTinyScene(folder_);
-    opened_ = openAndWarn(name_, common_, nullptr);
-    scene_ = opened_;
-
-    request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
     request_.options.size = {48, 200};  // high enough for several bands
+    open(cli::writeTinyScene(folder_));
   }
 
-  // Waits for a minute at most, which is far longer than a frame of a few thousand pixels takes.
+  void open(const std::string& name) {
+    name_ = name;
+    opened_ = openAndWarn(name_, common_, nullptr);
+    scene_ = opened_;
+    request_.camera = scene_->scene.cameras[0];
+  }
+
+  RenderThread begin() {
+    return RenderThread(opened_, common_, [] {});
+  }
+
   static bool waitFor(const RenderThread& thread) {
-    for (int i = 0; i < 60'000 && thread.busy(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return !thread.busy();
+    return waitUntil([&] { return !thread.busy(); });
   }
 
-  TracedFrame traced(RenderThread& thread) {
-    thread.ask(request_);
+  // Returns the picture that the thread makes next.
+  static TracedFrame taken(RenderThread& thread) {
     TracedFrame frame;
     EXPECT_TRUE(waitFor(thread));
     EXPECT_TRUE(thread.take(frame)) << thread.takeError();
     return frame;
+  }
+  TracedFrame traced(RenderThread& thread) {
+    EXPECT_TRUE(thread.ask(request_));
+    return taken(thread);
   }
 
   // Returns the picture of a renderer that is made for this request.
@@ -53,15 +79,7 @@ class RenderThreadTest : public testing::Test {
     return film;
   }
 
-  void expectRightPicture(RenderThread& thread) {
-    const TracedFrame frame = traced(thread);
-    const Film film = expected();
-    ASSERT_EQ(frame.film.image.pixels.size(), film.image.pixels.size());
-    EXPECT_EQ(std::memcmp(frame.film.image.pixels.data(), film.image.pixels.data(),
-                          film.image.pixels.size() * sizeof(Rgb)),
-              0);
-    EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
-  }
+  void expectRightPicture(RenderThread& thread) { expectSameFilm(traced(thread).film, expected()); }
 
   cli::TemporaryFolder folder_;
   cli::CommonOptions common_;
@@ -69,6 +87,42 @@ class RenderThreadTest : public testing::Test {
   std::shared_ptr<OpenScene> opened_;
   std::shared_ptr<const OpenScene> scene_;  // the scene that pictures are expected to show
   FrameRequest request_;
+};
+
+// Traces pictures at rest without a thread of its own.
+class FrameTracerTest : public RenderThreadTest {
+ protected:
+  FrameTracerTest() {
+    request_.interruptible = true;
+    calls_.superseded = calls_.stopped = [this] { return ++pieces_ > most_; };
+    calls_.answer = [] {};
+    calls_.publish = [](const TracedFrame&) {};
+    calls_.showUnfinished = [](const UnfinishedFrame&) {};
+  }
+
+  TracedFrame traced(FrameTracer& tracer) {
+    TracedFrame frame;
+    EXPECT_TRUE(tracer.trace(request_, frame, calls_));
+    return frame;
+  }
+  // Returns the picture of a tracer of its own.
+  TracedFrame traced() {
+    FrameTracer tracer(opened_, common_);
+    return traced(tracer);
+  }
+
+  void expectIsGivenUpInBetween() {
+    FrameTracer tracer(opened_, common_);
+    TracedFrame frame;
+    most_ = 3;
+    EXPECT_FALSE(tracer.trace(request_, frame, calls_));
+    EXPECT_GE(pieces_, 4);
+    EXPECT_LT(pieces_, 20) << "workers go on";
+  }
+
+  TraceCalls calls_;
+  std::atomic<int> pieces_{0};  // several workers count
+  int most_ = 1'000'000;
 };
 
 }  // namespace whit::view

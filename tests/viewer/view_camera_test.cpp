@@ -23,48 +23,80 @@ void expectNear(const Vec3f& a, const Vec3f& b, float tolerance = kTolerance) {
       << a.x << ',' << a.y << ',' << a.z << " instead of " << b.x << ',' << b.y << ',' << b.z;
 }
 
+// A model in a box of sides 2 about the origin.
+const Box kModel{{-1, -1, -1}, {1, 1, 1}};
+
+CameraControl aroundModel(const Camera& camera = facingOrigin()) {
+  CameraControl control(camera, 1);
+  control.set(camera, kModel);
+  return control;
+}
+
 TEST(CameraControl, RestingKeepsEveryBit) {
   Camera camera;
   camera.eye = {0.1f, 0.2f, 0.3f};
   camera.at = {-7.7f, 1e-3f, 5e5f};
   camera.up = {0.1f, 1, 0.2f};
   CameraControl control(camera, 1);
-
   EXPECT_FALSE(control.step({}, 1));
-  EXPECT_EQ(control.camera().eye, camera.eye);
-  EXPECT_EQ(control.camera().at, camera.at);
-  EXPECT_EQ(control.camera().up, camera.up);
+  EXPECT_TRUE(sameView(control.camera(), camera));
 }
 
-TEST(CameraControl, FliesAlongItsOwnAxes) {
-  const auto flown = [](CameraMotion motion) {
-    CameraControl control(facingOrigin(), 2);
-    EXPECT_TRUE(control.step(motion, 0.5));
-    return control.camera();
-  };
-
+struct Motion {
+  const char* name;
   CameraMotion motion;
-  motion.forward = 1;
-  expectNear(flown(motion).eye, {0, 0, 4});
-  expectNear(flown(motion).at, {0, 0, -1});
+  double seconds;
+  Vec3f eye, at;  // where the camera ends
+};
 
-  motion.fast = true;
-  expectNear(flown(motion).eye, {0, 0, 5 - static_cast<float>(kFastFactor)});
+// A room's camera moves by one unit where it walks for half a second.
+constexpr double kWalk = 0.5;
+const Motion kInRooms[] = {
+    {"forward", {.forward = 1}, kWalk, {0, 0, 4}, {0, 0, -1}},
+    {"fast",
+     {.forward = 1, .fast = true},
+     kWalk,
+     {0, 0, 5 - static_cast<float>(kFastFactor)},
+     {0, 0, -static_cast<float>(kFastFactor)}},
+    {"right", {.right = 1}, kWalk, {1, 0, 5}, {1, 0, 0}},
+    {"down", {.up = -1}, kWalk, {0, -1, 5}, {0, -1, 0}},
+    {"dragged to the right", {.turnX = kQuarterTurn}, 0, {0, 0, 5}, {5, 0, 5}},
+    {"arrow to the left", {.turnRight = -1}, kPi / 2 / kRadiansPerSecond, {0, 0, 5}, {-5, 0, 5}},
+    {"wheel",
+     {.wheel = 2},
+     0,
+     {0, 0, static_cast<float>(5 - 2 * kNotchSeconds * 2)},
+     {0, 0, static_cast<float>(-2 * kNotchSeconds * 2)}},
+};
+const Motion kAboutModels[] = {
+    {"orbit", {.turnX = kQuarterTurn}, 0, {-5, 0, 0}, {0, 0, 0}},
+    {"wheel",
+     {.wheel = 2},
+     0,
+     {0, 0, static_cast<float>(5 * kZoomFactor * kZoomFactor)},
+     {0, 0, 0}},
+};
 
-  motion = {};
-  motion.right = 1;
-  expectNear(flown(motion).eye, {1, 0, 5});
+void expectMoved(CameraControl control, const Motion& moved) {
+  EXPECT_TRUE(control.step(moved.motion, moved.seconds)) << moved.name;
+  expectNear(control.camera().eye, moved.eye);
+  expectNear(control.camera().at, moved.at);
+}
 
-  motion = {};
-  motion.up = -1;
-  expectNear(flown(motion).eye, {0, -1, 5});
+TEST(CameraControl, MovesAndTurnsInRoomsAndAboutModels) {
+  for (const Motion& motion : kInRooms) {
+    SCOPED_TRACE(motion.name);
+    expectMoved(CameraControl(facingOrigin(), 2), motion);
+  }
+  for (const Motion& motion : kAboutModels) {
+    SCOPED_TRACE(motion.name);
+    expectMoved(aroundModel(), motion);
+  }
 }
 
 TEST(CameraControl, DiagonalsAreNoFaster) {
   CameraControl control(facingOrigin(), 2);
-  CameraMotion motion;
-  motion.forward = motion.right = motion.up = 1;
-  control.step(motion, 0.5);
+  control.step({.forward = 1, .right = 1, .up = 1}, 0.5);
   EXPECT_NEAR(length(control.camera().eye - facingOrigin().eye), 1, kTolerance);
 }
 
@@ -72,34 +104,13 @@ TEST(CameraControl, UpIsTheCamerasOwn) {
   Camera camera = facingOrigin();
   camera.up = {3, 0, 0};
   CameraControl control(camera, 1);
-  CameraMotion motion;
-  motion.up = 1;
-  control.step(motion, 1);
+  control.step({.up = 1}, 1);
   expectNear(control.camera().eye, {1, 0, 5});
-}
-
-TEST(CameraControl, DraggingRightLooksRight) {
-  CameraControl control(facingOrigin(), 1);
-  CameraMotion motion;
-  motion.turnX = kQuarterTurn;
-  EXPECT_TRUE(control.step(motion, 0));
-  expectNear(control.camera().eye, {0, 0, 5});
-  expectNear(control.camera().at, {5, 0, 5});
-}
-
-TEST(CameraControl, ArrowsTurnWithTime) {
-  CameraControl control(facingOrigin(), 1);
-  CameraMotion motion;
-  motion.turnRight = -1;
-  control.step(motion, kPi / 2 / kRadiansPerSecond);
-  expectNear(control.camera().at, {-5, 0, 5});
 }
 
 TEST(CameraControl, NeverTipsOver) {
   CameraControl control(facingOrigin(), 1);
-  CameraMotion motion;
-  motion.turnY = 10 * kQuarterTurn;  // far down
-  control.step(motion, 0);
+  control.step({.turnY = 10 * kQuarterTurn}, 0);  // far down
 
   // The view stays within the steepest angle to the horizon.
   const Vec3f view = control.camera().at - control.camera().eye;
@@ -107,22 +118,9 @@ TEST(CameraControl, NeverTipsOver) {
   EXPECT_LT(view.z, 0);  // still ahead, not behind
 }
 
-TEST(CameraControl, TheWheelWalksInARoom) {
-  CameraControl control(facingOrigin(), 3);
-  CameraMotion motion;
-  motion.wheel = 2;
-  EXPECT_TRUE(control.step(motion, 1));
-  expectNear(control.camera().eye, {0, 0, static_cast<float>(5 - 3 * kNotchSeconds * 2)});
-  motion.wheel = -2;
-  control.step(motion, 1);
-  expectNear(control.camera().eye, {0, 0, 5});
-}
-
 TEST(CameraControl, StaysWhereScenesCanBe) {
   CameraControl control(facingOrigin(), 3);
-  CameraMotion motion;
-  motion.right = 1;
-  motion.fast = true;
+  const CameraMotion motion{.right = 1, .fast = true};
   // The position of the camera has limits too.
   for (int i = 0; i < 1000; ++i) control.step(motion, 1e15);
   EXPECT_LE(maxComponent(abs(control.camera().eye)), kLargestCoordinate);
@@ -134,9 +132,7 @@ TEST(CameraControl, CreepsFarFromTheOrigin) {
   Camera camera = facingOrigin();
   camera.eye.x = camera.at.x = 1e6f;
   CameraControl control(camera, 0.01);  // a step is 1/6000, where floats are 1/16 apart
-  CameraMotion motion;
-  motion.right = 1;
-  for (int i = 0; i < 6000; ++i) control.step(motion, 1.0 / 60);
+  for (int i = 0; i < 6000; ++i) control.step({.right = 1}, 1.0 / 60);
   EXPECT_NEAR(control.camera().eye.x, 1e6 + 1, 1.0 / 16);
 }
 
@@ -144,75 +140,38 @@ TEST(CameraControl, ViewAlongUpCanTurn) {
   Camera camera;
   camera.eye = {0, 5, 0};  // straight down, where `up` is no help
   CameraControl control(camera, 1);
-  CameraMotion motion;
-  motion.turnUp = 1;
-  EXPECT_TRUE(control.step(motion, 0.1));
+  EXPECT_TRUE(control.step({.turnUp = 1}, 0.1));
   EXPECT_TRUE(isFinite(control.camera().at));
   EXPECT_NEAR(length(control.camera().at - control.camera().eye), 5, kTolerance);
 }
 
-// A model in a box of sides 2 about the origin.
-CameraControl aroundModel(const Camera& camera = facingOrigin()) {
-  CameraControl control(camera, 1);
-  control.set(camera, Box{{-1, -1, -1}, {1, 1, 1}});
-  return control;
-}
-
-TEST(CameraControl, OrbitKeepsThePointLookedAt) {
+// The wheel moves between the nearest and the farthest distance, in diagonals of the model.
+TEST(CameraControl, TheWheelNeitherLosesAModelNorEntersIt) {
   CameraControl control = aroundModel();
-  CameraMotion motion;
-  motion.turnX = kQuarterTurn;
-  EXPECT_TRUE(control.step(motion, 0));
-  expectNear(control.camera().eye, {-5, 0, 0});
-  expectNear(control.camera().at, {0, 0, 0});
-}
-
-TEST(CameraControl, TheWheelMovesCloserToAModel) {
-  CameraControl control = aroundModel();
-  CameraMotion motion;
-  motion.wheel = 2;
-  EXPECT_TRUE(control.step(motion, 0));
-  expectNear(control.camera().eye, {0, 0, static_cast<float>(5 * kZoomFactor * kZoomFactor)});
-  expectNear(control.camera().at, {0, 0, 0});
-
-  // The wheel moves between the nearest and the farthest distance, in diagonals of the model.
-  motion.wheel = 1e4;
-  control.step(motion, 0);
+  control.step({.wheel = 1e4}, 0);
   EXPECT_NEAR(control.camera().eye.z, kNearest * std::sqrt(12.0), kTolerance);
-
-  motion.wheel = -1e5;
-  control.step(motion, 0);
+  control.step({.wheel = -1e5}, 0);
   EXPECT_NEAR(control.camera().eye.z, kFarthest * std::sqrt(12.0), 10 * kTolerance);
 }
 
 // A drag across the window's height moves the point that is orbited by the height that is seen at
 // its distance.
 TEST(CameraControl, PansWithThePointer) {
-  CameraMotion motion;
-  motion.panX = 0.1;
-  motion.panY = 0.05;
   // The camera is 5 away and has half a field of view of 22.5 degrees.
   const float height = 2 * 5 * std::tan(22.5f * static_cast<float>(kPi) / 180);
-
-  for (const bool model : {false, true}) {
-    CameraControl control = model ? aroundModel() : CameraControl(facingOrigin(), 1);
-    EXPECT_TRUE(control.step(motion, 0));
-    expectNear(control.camera().eye, {-0.1f * height, 0.05f * height, 5});
-    expectNear(control.camera().at, {-0.1f * height, 0.05f * height, 0});
-  }
+  const Motion pan{"pan",
+                   {.panX = 0.1, .panY = 0.05},
+                   0,
+                   {-0.1f * height, 0.05f * height, 5},
+                   {-0.1f * height, 0.05f * height, 0}};
+  expectMoved(aroundModel(), pan);
+  expectMoved(CameraControl(facingOrigin(), 1), pan);
 }
 
 TEST(CameraControl, NoDragLosesAModel) {
   CameraControl control = aroundModel();
-  CameraMotion motion;
-  motion.panX = -50;
-  motion.panY = 70;
-  motion.turnX = 1234;
-  motion.turnY = -777;
-  motion.wheel = -3;
-
   for (int i = 0; i < 100; ++i) {
-    control.step(motion, 0);
+    control.step({.turnX = 1234, .turnY = -777, .panX = -50, .panY = 70, .wheel = -3}, 0);
     EXPECT_LE(maxComponent(abs(control.camera().at)), 1 + kTolerance);
   }
 }
@@ -223,9 +182,7 @@ TEST(CameraControl, OrbitsAModelWhoseCameraLooksAtAPointNearby) {
   camera.at = {0, 0, 4.5f};
   CameraControl control = aroundModel(camera);
   EXPECT_EQ(control.camera().at, camera.at);
-  CameraMotion motion;
-  motion.turnX = kQuarterTurn;
-  control.step(motion, 0);
+  control.step({.turnX = kQuarterTurn}, 0);
   expectNear(control.camera().eye, {-5, 0, 0});
 }
 
@@ -234,10 +191,7 @@ TEST(CameraControl, OrbitsAModelWhoseCameraLooksAtAPointNearby) {
 TEST(CameraControl, FitsAModel) {
   for (const double aspect : {1.0, 2.0, 0.5}) {
     CameraControl control = aroundModel();
-    CameraMotion motion;
-    motion.wheel = -9;
-    motion.panX = 0.3;
-    control.step(motion, 0);
+    control.step({.panX = 0.3, .wheel = -9}, 0);
     control.fit(aspect);
 
     const double away = 1 + std::max(1.0, 1 / aspect) / std::tan(kPi / 8);
@@ -250,9 +204,7 @@ TEST(CameraControl, ParallelRaysComeCloserToo) {
   Camera camera = facingOrigin();
   camera.orthographicHeight = 4;
   CameraControl control = aroundModel(camera);
-  CameraMotion motion;
-  motion.wheel = 1;
-  control.step(motion, 0);
+  control.step({.wheel = 1}, 0);
   EXPECT_NEAR(control.camera().orthographicHeight, 4 * kZoomFactor, kTolerance);
   expectNear(control.camera().eye, {0, 0, 5});
 
@@ -261,32 +213,28 @@ TEST(CameraControl, ParallelRaysComeCloserToo) {
 }
 
 TEST(CameraControl, WhatIsSeenFromOutsideIsOrbited) {
-  const Box box{{-1, -1, -1}, {1, 1, 1}};
   Camera camera = facingOrigin();
-  EXPECT_FALSE(boundsToOrbit(box, camera).empty());
+  EXPECT_FALSE(boundsToOrbit(kModel, camera).empty());
   camera.eye = {0.5f, 0, 0};
-  EXPECT_TRUE(boundsToOrbit(box, camera).empty());
+  EXPECT_TRUE(boundsToOrbit(kModel, camera).empty());
   EXPECT_FALSE(CameraControl(facingOrigin(), 1).orbits());
 }
 
 // Shipped scenes are orbited where they are things on a floor, and looked around in where they are
 // rooms or landscapes.
 TEST(CameraControl, ShippedScenesAreOrbitedOrWalkedIn) {
-  const auto orbited = [](const char* name) {
+  for (const std::string name : {"whitted", "glass", "orrery", "matte", "glossy", "effects",
+                                 "cornell", "atrium", "landscape?triangles=20000"}) {
     const auto open = openScene({name, nullptr}, {}, false);
-    return !boundsToOrbit(subjectOf(open->scene), open->scene.cameras.front()).empty();
-  };
-  for (const char* name : {"whitted", "glass", "orrery", "matte", "glossy", "effects", "cornell"}) {
-    EXPECT_TRUE(orbited(name)) << name;
-  }
-  for (const char* name : {"atrium", "landscape"}) EXPECT_FALSE(orbited(name)) << name;
-}
+    const Box subject = subjectOf(open->scene);
+    const bool isWalkedIn = name == "atrium" || name.starts_with("landscape");
+    EXPECT_EQ(boundsToOrbit(subject, open->scene.cameras.front()).empty(), isWalkedIn) << name;
 
-// The floor of orrery is 160 wide; what stands on it fits into 20.
-TEST(CameraControl, TheFloorIsNotWhatIsLookedAt) {
-  const auto open = openScene({"orrery", nullptr}, {}, false);
-  const Box subject = subjectOf(open->scene);
-  EXPECT_LT(maxComponent(subject.upper - subject.lower), 20);
+    // The floor of orrery is 160 wide; what stands on it fits into 20.
+    if (name == "orrery") {
+      EXPECT_LT(maxComponent(subject.upper - subject.lower), 20);
+    }
+  }
 }
 
 }  // namespace

@@ -15,53 +15,21 @@ TEST_F(Viewer, ShowsOtherViews) {
       "screenshot depth.png\nkey V\nwait 2 frames\nwait sharp\nscreenshot normals.png\n");
 
   // The option shows what pressing V twice shows.
-  play("bare\nwait sharp\nscreenshot again.png\n", {"--view", "normals"});
-  EXPECT_NE(codes("picture.png").codes, codes("depth.png").codes);
-  EXPECT_NE(codes("depth.png").codes, codes("normals.png").codes);
+  play("bare\nwait sharp\nscreenshot again.png\n", "48x32", {"--view", "normals"});
+  expectOtherCodes("picture.png", "depth.png");
+  expectOtherCodes("depth.png", "normals.png");
   expectSameCodes("again.png", "normals.png");
 }
 
-TEST_F(Viewer, DroppedFilesOpen) {
-  std::string text = cli::readFile(folder_ / "tiny.json");
-  text.replace(text.find("0, 2, 6"), 7, "1, 3, 7");
-  std::ofstream(folder_ / "other.json") << text;
-
-  const cli::Outcome outcome = play(
-      "bare\nwait sharp\ndrop other.json\nwait 60 frames\nwait sharp\nscreenshot "
-      "shown.png\n"
-      "key C\n",
-      {"--size", "120x80"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_TRUE(hasText(lines[0], "other.json"));
-  EXPECT_FALSE(hasText(lines[0], "--eye"));
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
-}
-
-// A reload before the dropped scene is there loads the dropped scene.
-TEST_F(Viewer, ADroppedSceneReadAgainIsTheOneNamed) {
-  const cli::Outcome outcome = play(
-      "bare\nasked\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
-      "screenshot shown.png\nkey C\n");
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_EQ(lines[0].find("whit render whitted "), 0u) << lines[0];
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
-}
-
 TEST_F(Viewer, ErrorsAreShownAndSurvived) {
-  std::ofstream(folder_ / "broken.json") << "{ \"whit\": 1,\n \"lights\": 7 }";
+  write("broken.json", "{ \"whit\": 1,\n \"lights\": 7 }");
   const cli::Outcome outcome = play(
       "errors show\nbare\nwait sharp\nscreenshot before.png\ndrop broken.json\nwait 30 frames\n"
       "wait sharp\nscreenshot error.png\ndrop missing.json\nwait 30 frames\nwait sharp\n",
-      {"--size", "320x200"});
+      "320x200");
   EXPECT_TRUE(hasText(outcome.err, "broken.json#/lights"));
   EXPECT_TRUE(hasText(outcome.err, "missing.json"));
-  EXPECT_NE(codes("before.png").codes, codes("error.png").codes);
+  expectOtherCodes("before.png", "error.png");
 }
 
 // Only whit render writes the digest of the scene, which --resume compares.
@@ -81,44 +49,25 @@ void expectSameFile(const std::string& viewed, const std::string& rendered) {
 // The user presses keys, moves the mouse, and then unfolds and changes a light and a material in
 // the panel.
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
-  const cli::Outcome outcome = play(
+  const Words lines = commandsOf(
+      2,
       "asked\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
       "click 30 139\nwait 5 frames\nclick 100 208\nclick 60 160 130 160\n"         // the lamp
       "click 30 289\nwait 5 frames\nclick 60 334 90 334\nclick 110 310 140 310\n"  // the mirror
       "bare\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
-      {"--size", "800x480"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+      "800x480");
   EXPECT_EQ(lines[1], lines[0]);
-  for (const char* edited : {"/lights/0/position=", "/lights/0/intensity=",
-                             "/materials/mirror/specular=", "/materials/mirror/diffuse="}) {
-    EXPECT_TRUE(hasText(lines[0], std::string("--set '") + edited));
+  for (const std::string edited : {"/lights/0/position=", "/lights/0/intensity=",
+                                   "/materials/mirror/specular=", "/materials/mirror/diffuse="}) {
+    EXPECT_TRUE(hasText(lines[0], "--set '" + edited));
   }
   // What was not edited is not set.
   EXPECT_FALSE(hasText(lines[0], "/materials/floor"));
 
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
+  expectThatItShows("shown.png", lines[0]);
   // The saved file is the one that the printed command makes.
   render(lines[0], "again.exr");
   expectSameFile(folder_ / "tiny-0001.exr", folder_ / "again.exr");
-}
-
-// A setting of the command line belongs to the scene that is named there. It stays when that scene
-// is read again, and goes when another one is opened.
-TEST_F(Viewer, SettingsStayWithTheirScene) {
-  std::ofstream(folder_ / "other.json") << cli::readFile(folder_ / "tiny.json");
-  const cli::Outcome outcome = play(
-      "asked\nwait sharp\nkey C\nkey R\nwait 60 frames\nwait sharp\nkey C\n"
-      "drop other.json\nwait 60 frames\nwait sharp\nkey C\n",
-      {"--set", "/materials/floor/diffuse=[0.9, 0.1, 0.1]"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
-  EXPECT_TRUE(hasText(lines[0], " --set '/materials/floor/diffuse=[0.9, 0.1, 0.1]'"));
-  EXPECT_EQ(lines[1], lines[0]);
-  EXPECT_FALSE(hasText(lines[2], "--set"));
 }
 
 // Makes events of all kinds that keys and mouse have, except for quitting and for writing files.
@@ -128,61 +77,50 @@ std::string randomEvents(unsigned seed, int count) {
                              "F",     "H", "V", "R", "Shift", "Home", "F11",  "L"};
   std::mt19937 random(seed);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  std::ostringstream script;
-  script << "errors show\n";
+  const auto numbers = [&](const ImageSize& range, int x, int y) {
+    x += below(range.width);
+    y += below(range.height);
+    return ' ' + std::to_string(x) + ' ' + std::to_string(y);
+  };
+  const ImageSize all{400, 300}, window{320, 240};
+  std::string script = "errors show";
 
   for (int i = 0; i < count; ++i) {
+    script += '\n';
     switch (below(9)) {
       case 0:
-        script << "mouse left " << below(400) - 200 << ' ' << below(300) - 150 << "\n";
+        script += "mouse left" + numbers(all, -200, -150);
         break;
       case 1:
-        script << "mouse right " << below(400) - 200 << ' ' << below(300) - 150 << "\n";
+        script += "mouse right" + numbers(all, -200, -150);
         break;
       case 2:
-        script << "wheel " << below(7) - 3 << "\n";
+        script += "wheel " + std::to_string(below(7) - 3);
         break;
       case 3:
-        script << "click " << below(320) << ' ' << below(240) << "\n";
+        script += "click" + numbers(window, 0, 0);
         break;
       case 4:
-        script << "click " << below(320) << ' ' << below(240) << ' ' << below(320) << ' '
-               << below(240) << "\n";
+        script += "click" + numbers(window, 0, 0);
+        script += numbers(window, 0, 0);
         break;
       case 5:
-        if (below(4) == 0) script << "resize " << 1 + below(400) << ' ' << 1 + below(300) << "\n";
-        if (below(4) == 0) script << "key Ctrl+Z\n";
-        if (below(8) == 0) script << "minimize\nwait 2 frames\nrestore\n";
-        if (below(8) == 0) script << "drop " << (below(2) == 0 ? "tiny.json" : "none.json") << "\n";
-        script << "wait " << 1 + below(10) << " frames\n";
+        if (below(4) == 0) script += "resize" + numbers(all, 1, 1) + '\n';
+        if (below(4) == 0) script += "key Ctrl+Z\n";
+        if (below(8) == 0) script += "minimize\nwait 2 frames\nrestore\n";
+        if (below(8) == 0) script += below(2) == 0 ? "drop tiny.json\n" : "drop none.json\n";
+        script += "wait " + std::to_string(1 + below(10)) + " frames";
         break;
       default:
-        script << "key " << kKeys[static_cast<std::size_t>(below(kKeys.size()))];
-        if (below(2) == 0) script << " 0.1";
-        script << "\n";
+        script += std::string("key ") + kKeys[static_cast<std::size_t>(below(kKeys.size()))];
+        if (below(2) == 0) script += " 0.1";
     }
   }
-  return script.str();
+  return script;
 }
 
 TEST_F(Viewer, SurvivesTwoHundredRandomEvents) {
-  const cli::Outcome outcome = play(randomEvents(7, 200), {"--size", "320x240"});
-  EXPECT_FALSE(hasText(outcome.err, "Sanitizer"));
-}
-
-TEST_F(Viewer, FullScreenMinimizedAndResized) {
-  const cli::Outcome outcome = play(
-      "bare\nkey F11\nwait 5 frames\nkey F11\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
-      "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n");
-
-  const RawImage shown = codes("shown.png");
-  EXPECT_EQ(shown.width, 200);
-  EXPECT_EQ(shown.height, 100);
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
+  EXPECT_FALSE(hasText(play(randomEvents(7, 200), "320x240").err, "Sanitizer"));
 }
 
 }  // namespace

@@ -9,47 +9,45 @@
 namespace whit::view {
 namespace {
 
-using RayPicking = RenderThreadTest;
+class RayPicking : public RenderThreadTest {
+ protected:
+  RayPicking() { request_.options.size = {48, 32}; }
 
-RayQuery queryFor(const FrameRequest& request, int x, int y) {
-  RayQuery query;
-  query.picture.camera = request.camera;
-  query.picture.options = request.options;
-  query.x = x;
-  query.y = y;
-  return query;
-}
+  RayQuery queryFor(int x, int y) const {
+    RayQuery query;
+    query.picture.camera = request_.camera;
+    query.picture.options = request_.options;
+    query.x = x;
+    query.y = y;
+    return query;
+  }
+  RayPick picked(RenderThread& thread, int x, int y) const {
+    thread.query(queryFor(x, y));
+    EXPECT_TRUE(waitFor(thread));
+    const auto pick = thread.takePick();
+    EXPECT_FALSE(thread.takePick());
+    return pick.value();
+  }
+};
 
 TEST_F(RayPicking, TheRaysAreThoseOfThePicture) {
-  RenderThread thread(opened_, common_, [] {});
-  request_.options.size = {48, 32};
+  RenderThread thread = begin();
   const TracedFrame frame = traced(thread);
   for (const auto& [x, y] : {std::pair{24, 14}, {20, 25}, {3, 30}}) {
-    thread.query(queryFor(request_, x, y));
-    ASSERT_TRUE(waitFor(thread));
-    const auto pick = thread.takePick();
-    ASSERT_TRUE(pick) << thread.takeError();
-    EXPECT_EQ(pick->rays.packets.pixel, frame.film.image.at(x, y)) << x << "," << y;
-    EXPECT_EQ(pick->words.size(), pick->rays.packets.nodes.size());
+    const RayPick pick = picked(thread, x, y);
+    EXPECT_EQ(pick.rays.packets.pixel, frame.film.image.at(x, y)) << x << "," << y;
+    EXPECT_EQ(pick.words.size(), pick.rays.packets.nodes.size());
     // The pixels in row 14 show the ball, the others the floor.
-    EXPECT_EQ(pick->words[0].hit.rfind(y == 14 ? "mirror, " : "floor, ", 0), 0u)
-        << pick->words[0].hit;
-    EXPECT_FALSE(thread.takePick());
+    EXPECT_TRUE(pick.words[0].hit.starts_with(y == 14 ? "mirror, " : "floor, "))
+        << pick.words[0].hit;
   }
   expectRightPicture(thread);
 }
 
 TEST_F(RayPicking, WhatWasMetIsSelected) {
-  RenderThread thread(opened_, common_, [] {});
-  request_.options.size = {48, 32};
-  const auto selected = [&](int x, int y) {
-    thread.query(queryFor(request_, x, y));
-    EXPECT_TRUE(waitFor(thread));
-    return select(thread.takePick().value());
-  };
-
+  RenderThread thread = begin();
   // The ball and the lamp that lights it are selected, and the sky selects nothing.
-  const Selection sphere = selected(24, 14), nothing = selected(0, 0);
+  const Selection sphere = select(picked(thread, 24, 14)), nothing = select(picked(thread, 0, 0));
   ASSERT_LT(sphere.material, scene_->scene.materials.size());
   EXPECT_EQ(scene_->scene.materials[sphere.material].name, "mirror");
   EXPECT_EQ(sphere.light, 0u);
@@ -60,23 +58,17 @@ TEST_F(RayPicking, WhatWasMetIsSelected) {
 // A query of rays neither ends the picture that is being traced nor changes it, and the picture
 // does not change the rays.
 TEST_F(RayPicking, PicturesUnderWayGoOn) {
-  RenderThread thread(opened_, common_, [] {});
-  request_.options.size = {48, 32};
+  RenderThread thread = begin();
   const TracedFrame small = traced(thread);
-  const RayQuery query = queryFor(request_, 24, 14);
+  const RayQuery query = queryFor(24, 14);
 
+  // The query comes while a large picture is being traced.
   request_.options.size = {480, 320};
   request_.spp = 64;
   request_.interruptible = true;
-  // The query comes while a large picture is being traced.
   thread.ask(request_);
   thread.query(query);
-  ASSERT_TRUE(waitFor(thread));
-
-  TracedFrame frame;
-  ASSERT_TRUE(thread.take(frame)) << "the question has ended it";
-  const Film film = expected();
-  EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
+  EXPECT_EQ(taken(thread).film.display.rgba, expected().display.rgba);
 
   const auto pick = thread.takePick();
   ASSERT_TRUE(pick);
@@ -84,16 +76,12 @@ TEST_F(RayPicking, PicturesUnderWayGoOn) {
 }
 
 TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
-  RenderThread thread(opened_, common_, [] {});
-  request_.options.size = {48, 32};
-  thread.query(queryFor(request_, 24, 14));
-  ASSERT_TRUE(waitFor(thread));
-  const auto pick = thread.takePick();
-  ASSERT_TRUE(pick);
+  RenderThread thread = begin();
+  const RayPick pick = picked(thread, 24, 14);
 
   constexpr double kRounding = 1e-3;  // pixels
   const LineView view(request_.camera, 48, 32);
-  const RayNode& primary = pick->rays.packets.nodes[0];
+  const RayNode& primary = pick.rays.packets.nodes[0];
   // The primary ray ends in the middle of its pixel.
   const auto seen = view.see(primary.position, primary.position + Vec3d{0, 0, 1e-9});
   ASSERT_TRUE(seen);
@@ -105,8 +93,8 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
   EXPECT_FALSE(view.see(eye + back, eye + back * 2));
 
   // The second view, from aside, shows all points that were hit.
-  const LineView aside(pick->aside, 48, 32);
-  for (const RayNode& n : pick->rays.packets.nodes) {
+  const LineView aside(pick.aside, 48, 32);
+  for (const RayNode& n : pick.rays.packets.nodes) {
     if (n.triangle == kMiss) continue;
     const auto at = aside.see(n.position, n.position);
     ASSERT_TRUE(at);
@@ -116,28 +104,24 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
 
 TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
   play(
-      "bare\nasked\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nbare\nwait 2 "
-      "frames\nwait "
-      "sharp\n"
+      "bare\nasked\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nbare\n"
+      "wait 2 frames\nwait sharp\n"
       "screenshot rays.png\nkey T\nwait 2 frames\nscreenshot hidden.png\nkey T\n"
       "mouse right 60 0\nwait 20 frames\nwait sharp\nscreenshot aside.png\nkey T\nwait 2 frames\n"
       "screenshot plain-aside.png\n",
-      {"--size", "240x160"});
-
-  EXPECT_NE(codes("rays.png").codes, codes("plain.png").codes);
+      "240x160");
+  expectOtherCodes("rays.png", "plain.png");
   // The key T hides the rays.
   expectSameCodes("hidden.png", "plain.png");
-  EXPECT_NE(codes("aside.png").codes, codes("plain-aside.png").codes);
+  expectOtherCodes("aside.png", "plain-aside.png");
 }
 
 TEST_F(Viewer, AClickTurnsThePanelToTheRays) {
-  play(
-      "asked\nwait sharp\npanel time\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
-      "wait 250 frames\nscreenshot rays.png\n",
-      {"--size", "800x480"});
-  play("asked\nwait sharp\npanel time\nwait 2 frames\nwait 250 frames\nscreenshot time.png\n",
-       {"--size", "800x480"});
-  EXPECT_NE(codes("rays.png").codes, codes("time.png").codes);
+  const std::string begin = "asked\nwait sharp\npanel time\nwait 2 frames\n";
+  play(begin + "click 560 300\nwait 2 frames\nwait sharp\nwait 250 frames\nscreenshot rays.png\n",
+       "800x480");
+  play(begin + "wait 250 frames\nscreenshot time.png\n", "800x480");
+  expectOtherCodes("rays.png", "time.png");
 }
 
 }  // namespace

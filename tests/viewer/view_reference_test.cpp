@@ -16,22 +16,17 @@ class ReportCount : public Progress {
   std::atomic<int> reports = 0;
 };
 
-class ReferenceViews : public RenderThreadTest {
+class ReferenceViews : public FrameTracerTest {
  protected:
-  ReferenceViews() {
-    request_.interruptible = true;
-    calls_.superseded = calls_.stopped = [] { return false; };
-    calls_.answer = [] {};
-    calls_.publish = [](const TracedFrame&) {};
-    calls_.showUnfinished = [](const UnfinishedFrame&) {};
-    calls_.progress = &count_;
-  }
+  ReferenceViews() { calls_.progress = &count_; }
 
   TracedFrame traced(FrameTracer& tracer, DebugView view) {
     request_.view = view;
-    TracedFrame frame;
-    EXPECT_TRUE(tracer.trace(request_, frame, calls_));
-    return frame;
+    return FrameTracerTest::traced(tracer);
+  }
+  TracedFrame traced(DebugView view) {
+    FrameTracer tracer(opened_, common_);
+    return traced(tracer, view);
   }
 
   // Returns the picture by the scalar reference.
@@ -43,25 +38,19 @@ class ReferenceViews : public RenderThreadTest {
   }
 
   ReportCount count_;
-  TraceCalls calls_;
 };
 
 TEST_F(ReferenceViews, TheReferenceIsThatOfTheCommand) {
-  FrameTracer tracer(opened_, common_);
-  const TracedFrame frame = traced(tracer, DebugView::reference);
-
-  const Film film = reference();
-  EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
-  EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
-  EXPECT_NE(film.image.pixels, expected().image.pixels) << "the packets round as doubles do";
+  const TracedFrame frame = traced(DebugView::reference);
+  expectSameFilm(frame.film, reference());
+  EXPECT_NE(frame.film.image.pixels, expected().image.pixels) << "the packets round as doubles do";
   EXPECT_EQ(frame.options.mode, Mode::reference);
   ASSERT_TRUE(frame.debug);
   EXPECT_EQ(frame.debug->textOf(0).find("0 codes off the reference, "), 0u);
 }
 
 TEST_F(ReferenceViews, TheDifferenceIsThatOfPacketsAndReference) {
-  FrameTracer tracer(opened_, common_);
-  const TracedFrame frame = traced(tracer, DebugView::difference);
+  const TracedFrame frame = traced(DebugView::difference);
 
   // The largest difference of each pixel, in codes.
   const Film packets = expected(), film = reference();
@@ -114,7 +103,7 @@ TEST_F(ReferenceViews, AStopEndsTheReferenceWithinSomeRows) {
 }
 
 TEST_F(ReferenceViews, AReferenceGivesWayToAMovement) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   FrameRequest large = request_;
   large.view = DebugView::difference;
   large.options.size = {800, 800};
@@ -123,31 +112,30 @@ TEST_F(ReferenceViews, AReferenceGivesWayToAMovement) {
   EXPECT_FALSE(thread.committed());
 
   request_.interruptible = false;
-  EXPECT_TRUE(thread.ask(request_));
-  ASSERT_TRUE(waitFor(thread));
-  TracedFrame frame;
-  ASSERT_TRUE(thread.take(frame));
-  EXPECT_TRUE(samePicture(frame.request, request_));
+  EXPECT_TRUE(samePicture(RenderThreadTest::traced(thread).request, request_));
   EXPECT_EQ(thread.progress(), "");
 }
 
 // The picture is moved while its reference is traced, and comes to rest again. It is so small that
 // it has all pixels and samples in motion, where it is not the reference yet.
 TEST_F(Viewer, TheReferenceHasTheBitsOfItsCommand) {
-  const cli::Outcome outcome = play(
-      "bare\nkey D 0.3\nwait 10 frames\nmouse left 20 5\nwait 3 frames\nwait sharp\n"
-      "screenshot reference.png\nkey C\nkey V\nwait 3 frames\nwait sharp\n"
-      "screenshot difference.png\nkey C\n",
-      {"--view", "reference", "--size", "240x160"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  const Words lines =
+      commandsOf(3,
+                 "bare\nkey D 0.3\nwait 10 frames\nmouse left 20 5\nwait 3 frames\nwait sharp\n"
+                 "screenshot reference.png\nkey C\nkey F12\nkey V\nwait 3 frames\nwait sharp\n"
+                 "screenshot difference.png\nkey C\n",
+                 "240x160", {"--view", "reference"});
   EXPECT_TRUE(hasText(lines[0], " --mode=reference"));
-  EXPECT_FALSE(hasText(lines[1], " --mode"));
+  EXPECT_EQ(lines[1], lines[0]);
+  EXPECT_FALSE(hasText(lines[2], " --mode"));
+  expectThatItShows("reference.png", lines[0]);
+  expectOtherCodes("difference.png", "reference.png");
 
-  render(lines[0], "again.png");
-  expectSameCodes("reference.png", "again.png");
-  EXPECT_NE(codes("difference.png").codes, codes("reference.png").codes);
+  // The saved files are those of the command as well.
+  expectSameCodes("tiny-reference-0001.png", "reference.png");
+  render(lines[0], "again.exr");
+  EXPECT_EQ(readImage(folder_ / "tiny-reference-0001.exr", ImageLimits()).pixels,
+            readImage(folder_ / "again.exr", ImageLimits()).pixels);
 }
 
 }  // namespace

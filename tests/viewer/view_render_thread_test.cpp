@@ -12,7 +12,7 @@ namespace whit::view {
 namespace {
 
 TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   expectRightPicture(thread);
   request_.options.disable = request_.options.disable.with(Effect::mirror);
   expectRightPicture(thread);
@@ -31,33 +31,28 @@ TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
 }
 
 TEST_F(RenderThreadTest, InterruptibleFramesMakeTheSamePicture) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   request_.interruptible = true;
-  request_.spp = 256;
+  request_.spp = 64;
   request_.options.size = {480, 200};
   expectRightPicture(thread);
 }
 
 TEST_F(RenderThreadTest, TheNewestRequestWins) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   request_.interruptible = true;
   TracedFrame early;
-
   for (int i = 1; i <= 50; ++i) {
     request_.options.exposure.ev = static_cast<float>(i) / 8;
     // A picture that is there must be taken before another one can be requested.
     while (!thread.ask(request_)) thread.take(early);
   }
-  ASSERT_TRUE(waitFor(thread));
-
-  TracedFrame frame;
-  ASSERT_TRUE(thread.take(frame));
-  EXPECT_TRUE(samePicture(frame.request, request_));
-  EXPECT_FALSE(thread.take(frame));
+  EXPECT_TRUE(samePicture(taken(thread).request, request_));
+  EXPECT_FALSE(thread.take(early));
 }
 
 TEST_F(RenderThreadTest, NothingQueuesBehindAPictureInMotion) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   request_.options.size = {480, 320};
   request_.spp = 64;
   request_.edits = 1;
@@ -70,15 +65,14 @@ TEST_F(RenderThreadTest, NothingQueuesBehindAPictureInMotion) {
   ASSERT_TRUE(waitFor(thread));
   EXPECT_FALSE(thread.ask(request_)) << "the user has not seen the first one";
 
-  TracedFrame frame;
-  ASSERT_TRUE(thread.take(frame));
+  TracedFrame frame = taken(thread);
   EXPECT_EQ(frame.request.edits, 1);
   EXPECT_FALSE(thread.take(frame));
   EXPECT_TRUE(thread.ask(request_));
 }
 
 TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   FrameRequest large = request_;
   large.options.size = {4000, 4000};
   large.spp = 64;
@@ -88,11 +82,7 @@ TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
   EXPECT_FALSE(thread.committed());
 
   request_.edits = 2;
-  EXPECT_TRUE(thread.ask(request_));
-
-  ASSERT_TRUE(waitFor(thread));
-  TracedFrame frame;
-  ASSERT_TRUE(thread.take(frame));
+  TracedFrame frame = traced(thread);
   EXPECT_EQ(frame.request.edits, 2);
   EXPECT_FALSE(thread.take(frame));
 }
@@ -100,7 +90,7 @@ TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
 // The window's loop as App::step() has it, with keys at any time: a picture with n edits shows the
 // first n keys.
 TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
 
   request_.options.size = {24, 16};
   std::mt19937 random(1);
@@ -132,7 +122,7 @@ TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
 }
 
 TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   expectRightPicture(thread);
   request_.options.robust = false;
   expectRightPicture(thread);
@@ -146,7 +136,7 @@ TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
 }
 
 TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   expectRightPicture(thread);
 
   const RenderOptions good = request_.options;
@@ -159,29 +149,31 @@ TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
   expectRightPicture(thread);
 }
 
+KnobCost costOf(const std::string& name, const std::vector<KnobCost>& costs) {
+  const auto found = std::ranges::find(costs, name, &KnobCost::name);
+  EXPECT_NE(found, costs.end()) << name << " was not measured";
+  return found == costs.end() ? KnobCost() : *found;
+}
+
 // The frames that are measured may be smaller than the picture, and how much smaller depends on how
 // busy the machine is: what is expected of their rays holds at any size.
 TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   request_.measureKnobs = true;
   request_.options.size = {240, 160};
   const TracedFrame frame = traced(thread);
 
-  const auto costOf = [&](const std::string& name) {
-    for (const KnobCost& cost : frame.costs) {
-      if (cost.name == name) return cost;
-    }
-    ADD_FAILURE() << name << " was not measured";
-    return KnobCost();
+  const auto raysOf = [&](const char* name, RayKind kind, bool now) {
+    const KnobCost cost = costOf(name, frame.costs);
+    return (now ? cost.now : cost.then).of(kind).rays;
   };
-
-  const KnobCost depth = costOf("depth"), mirror = costOf("mirror");
-  EXPECT_EQ(depth.other, "0");
-  EXPECT_EQ(depth.then.of(RayKind::reflection).rays, 0u);
-  EXPECT_GT(depth.now.of(RayKind::reflection).rays, 0u);
-  EXPECT_EQ(depth.now.of(RayKind::reflection).rays, mirror.now.of(RayKind::reflection).rays);
-  EXPECT_GT(costOf("shadows").now.of(RayKind::shadow).rays, 0u);
-  EXPECT_EQ(costOf("shadows").then.of(RayKind::shadow).rays, 0u);
+  EXPECT_EQ(costOf("depth", frame.costs).other, "0");
+  EXPECT_EQ(raysOf("depth", RayKind::reflection, false), 0u);
+  EXPECT_GT(raysOf("depth", RayKind::reflection, true), 0u);
+  EXPECT_EQ(raysOf("depth", RayKind::reflection, true),
+            raysOf("mirror", RayKind::reflection, true));
+  EXPECT_GT(raysOf("shadows", RayKind::shadow, true), 0u);
+  EXPECT_EQ(raysOf("shadows", RayKind::shadow, false), 0u);
   for (const KnobCost& cost : frame.costs) EXPECT_NE(cost.name, "glossy");  // the scene has none
 
   request_.measureKnobs = false;
@@ -203,22 +195,23 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
                              return true;
                            }));
 
-  const auto raysOf = [&](const std::string& name) {
-    for (const KnobCost& cost : costs) {
-      if (cost.name == name) return static_cast<double>(cost.now.allRays() - cost.then.allRays());
-    }
-    ADD_FAILURE() << name << " was not measured";
-    return 0.0;
+  const auto raysOf = [&](const char* name) {
+    const KnobCost cost = costOf(name, costs);
+    return cost.now.allRays() - cost.then.allRays();
   };
 
   EXPECT_EQ(raysOf("depth"), raysOf("mirror"));
-  EXPECT_GE(raysOf("depth"), static_cast<double>(stats.of(RayKind::reflection).rays));
+  EXPECT_GE(raysOf("depth"), stats.of(RayKind::reflection).rays);
   for (const KnobCost& cost : costs) EXPECT_EQ(cost.now.allRays(), stats.allRays()) << cost.name;
 }
 
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
+  const auto hasMirrors = [](const TracedFrame& frame) {
+    return frame.reasons[static_cast<std::size_t>(Effect::mirror)].on;
+  };
   const TracedFrame before = traced(thread);
+  EXPECT_TRUE(hasMirrors(before));
 
   SceneEdit edit{scene_, {"/lights/0/position/0=-2"}};
   for (const Material& m : scene_->scene.materials) {
@@ -227,24 +220,22 @@ TEST_F(RenderThreadTest, EditsBetweenFrames) {
     edited.diffuse = {0.2f, 0.9f, 0.1f};
     addMemberSettings(m, edited, {}, edit.settings);
   }
-  // The edit must change the picture, and mirrors must be off.
-  // An edit of a scene that was replaced is ignored.
   thread.edit(edit);
   ++request_.edits;
 
   const TracedFrame after = traced(thread);
   EXPECT_NE(after.film.display.rgba, before.film.display.rgba);
-  EXPECT_TRUE(before.reasons[static_cast<std::size_t>(Effect::mirror)].on);
-  EXPECT_FALSE(after.reasons[static_cast<std::size_t>(Effect::mirror)].on);
-
+  EXPECT_FALSE(hasMirrors(after));
   expectRightPicture(thread);  // the picture of a renderer made for the edited scene
-  thread.edit({nullptr, {"/lights/0/position/0=2"}});  // of a scene that is no longer there
+
+  // An edit of a scene that is no longer there is ignored.
+  thread.edit({nullptr, {"/lights/0/position/0=2"}});
   ASSERT_TRUE(waitFor(thread));
   EXPECT_EQ(scene_->scene.lights[0].position.x, -2);
 }
 
 TEST_F(RenderThreadTest, ReloadsTheScene) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   EXPECT_EQ(traced(thread).scene, scene_);
 
   std::string text = cli::readFile(name_);

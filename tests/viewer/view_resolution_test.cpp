@@ -12,17 +12,26 @@ namespace {
 
 constexpr double kPixels = 1e6;
 
+void learn(ResolutionControl& control, double ms, bool plain = false) {
+  for (int i = 0; i < 100; ++i) control.learn(ms, kPixels, plain);
+}
+
 // Returns a control that has seen many frames of `ms` for the whole window.
-ResolutionControl learned(double ms, double rate = kDefaultRate) {
-  ResolutionControl control(rate, 1);
-  for (int i = 0; i < 100; ++i) control.learn(ms, kPixels);
+ResolutionControl learned(double ms, double rate = kDefaultRate, int spp = 1) {
+  ResolutionControl control(rate, spp);
+  learn(control, ms);
   return control;
 }
 
-// Returns the scale that the control stays at.
-double scaleOf(ResolutionControl& control) {
-  for (std::size_t i = 0; i < kScales.size(); ++i) control.moving(kPixels);
-  return control.moving(kPixels).scale;
+// Returns what the control stays at in motion.
+Sharpness chosen(ResolutionControl& control) {
+  for (std::size_t i = 0; i < 2 * kScales.size(); ++i) control.moving(kPixels);
+  return control.moving(kPixels);
+}
+// The same after many frames of `ms`.
+Sharpness chosenAfter(double ms, ResolutionControl& control, bool plain = false) {
+  learn(control, ms, plain);
+  return chosen(control);
 }
 
 TEST(ResolutionControl, BeginsWithWhatIsSoonThere) {
@@ -37,28 +46,19 @@ TEST(ResolutionControl, FewCoresAreAskedForLess) {
 }
 
 TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
-  ResolutionControl slow = learned(100);
-  EXPECT_EQ(scaleOf(slow), 0.375);  // 14.1 ms; 0.4375 would take 19
-  ResolutionControl patient = learned(100, kLeastRate);
-  EXPECT_EQ(scaleOf(patient), 0.6875);  // 47 ms of 50; 0.75 would take 56
-  ResolutionControl fast = learned(10);
-  EXPECT_EQ(scaleOf(fast), 1);
-  ResolutionControl hopeless = learned(1e6);
-  EXPECT_EQ(scaleOf(hopeless), kScales.back());
+  ResolutionControl fast(kDefaultRate, 1), patient(kLeastRate, 1);
+  EXPECT_EQ(chosenAfter(100, fast), (Sharpness{0.375, 1}));      // 14.1 ms; 0.4375 would take 19
+  EXPECT_EQ(chosenAfter(100, patient), (Sharpness{0.6875, 1}));  // 47 ms of 50; 0.75 would take 56
+  EXPECT_EQ(chosenAfter(10, fast), (Sharpness{1, 1}));
+  EXPECT_EQ(chosenAfter(1e6, fast), (Sharpness{kScales.back(), 1}));
 }
 
 TEST(ResolutionControl, SamplesGoBeforeResolution) {
   ResolutionControl control(kDefaultRate, 16);
-  const auto chosen = [&](double msForOneSample) {
-    for (int i = 0; i < 100; ++i) control.learn(msForOneSample, kPixels);
-    for (std::size_t i = 0; i < 2 * kScales.size(); ++i) control.moving(kPixels);
-    return control.moving(kPixels);
-  };
-
-  EXPECT_EQ(chosen(0.5), (Sharpness{1, 16}));
-  EXPECT_EQ(chosen(3), (Sharpness{1, 4}));  // 12 ms; 8 would take 24
-  EXPECT_EQ(chosen(16), (Sharpness{1, 1}));
-  EXPECT_EQ(chosen(100), (Sharpness{0.375, 1}));
+  EXPECT_EQ(chosenAfter(0.5, control), (Sharpness{1, 16}));
+  EXPECT_EQ(chosenAfter(3, control), (Sharpness{1, 4}));  // 12 ms; 8 would take 24
+  EXPECT_EQ(chosenAfter(16, control), (Sharpness{1, 1}));
+  EXPECT_EQ(chosenAfter(100, control), (Sharpness{0.375, 1}));
 }
 
 // A sample costs 30 ms with sampled rays, of which plain ones take a tenth.
@@ -66,14 +66,14 @@ TEST(ResolutionControl, SampledRaysGoBeforeResolution) {
   ResolutionControl control(kDefaultRate, 1);
   control.setSamples(1, true);
   control.learn(3, kPixels, true);
-  for (int i = 0; i < 100; ++i) control.learn(30, kPixels);
+  learn(control, 30);
   for (int i = 0; i < 3; ++i) control.moving(kPixels);
   EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 1, true}));
 
   // They come back where there is time for them, and resolution goes after they have gone.
-  for (int i = 0; i < 100; ++i) control.learn(1, kPixels, true);
+  learn(control, 1, true);
   EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 1, false}));
-  for (int i = 0; i < 100; ++i) control.learn(100, kPixels, true);
+  learn(control, 100, true);
   EXPECT_EQ(control.moving(kPixels), (Sharpness{0.375, 1, true}));
 }
 
@@ -90,18 +90,13 @@ TEST(ResolutionControl, SampledRaysAreExpectedToCostMore) {
 }
 
 TEST(ResolutionControl, DoesNotFlutter) {
-  ResolutionControl control = learned(15.5);
-  EXPECT_EQ(scaleOf(control), 1);
-  for (int i = 0; i < 100; ++i) control.learn(20, kPixels);
-  EXPECT_EQ(scaleOf(control), 0.875);
-
+  ResolutionControl control(kDefaultRate, 1);
+  EXPECT_EQ(chosenAfter(15.5, control).scale, 1);
+  EXPECT_EQ(chosenAfter(20, control).scale, 0.875);
   // The scale 0.9375 would take 15.8 ms. It would hold the rate, but so barely that the control
   // does not return to it.
-  for (int i = 0; i < 100; ++i) control.learn(18, kPixels);
-  EXPECT_EQ(scaleOf(control), 0.875);
-
-  for (int i = 0; i < 100; ++i) control.learn(10, kPixels);
-  EXPECT_EQ(scaleOf(control), 1);
+  EXPECT_EQ(chosenAfter(18, control).scale, 0.875);
+  EXPECT_EQ(chosenAfter(10, control).scale, 1);
 }
 
 TEST(ResolutionControl, RatesStayWithinLimits) {
@@ -113,46 +108,39 @@ TEST(ResolutionControl, IgnoresFramesWithoutTime) {
   ResolutionControl control = learned(10);
   control.learn(0, kPixels);
   control.learn(10, 0);
-  EXPECT_EQ(scaleOf(control), 1);
+  EXPECT_EQ(chosen(control).scale, 1);
 }
+
+using Steps = std::vector<Sharpness>;
 
 // Returns the steps of a picture at rest, which begins with nothing or with a picture of
 // `shownScale`.
-std::vector<Sharpness> stepsAtRest(ResolutionControl& control, bool supersample,
-                                   double shownScale = 0) {
+Steps stepsAtRest(ResolutionControl& control, bool supersample, double shownScale = 0) {
   control.startSharpening(kPixels, shownScale);
-  std::vector<Sharpness> steps{control.still(supersample)};
+  Steps steps{control.still(supersample)};
   while (control.sharpen(supersample)) steps.push_back(control.still(supersample));
   return steps;
 }
 
-TEST(ResolutionControl, SharpensAtRestStepByStep) {
-  using Steps = std::vector<Sharpness>;
-  // A slow machine begins coarse, and each step has four times the pixels.
-  ResolutionControl slow = learned(1e5);
-  EXPECT_EQ(stepsAtRest(slow, true),
-            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}, {1, 16}}));
-  EXPECT_EQ(stepsAtRest(slow, false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}}));
-
-  ResolutionControl middling = learned(150);  // 37 ms for a half
-  EXPECT_EQ(stepsAtRest(middling, false), (Steps{{0.5, 1}, {1, 1}}));
-
-  ResolutionControl fast = learned(10);
-  EXPECT_EQ(stepsAtRest(fast, true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
+Steps stepsAtRest(ResolutionControl&& control, bool supersample, double shownScale = 0) {
+  return stepsAtRest(control, supersample, shownScale);
 }
 
-TEST(ResolutionControl, RestBeginsWithOneSample) {
-  using Steps = std::vector<Sharpness>;
-  ResolutionControl slow(kDefaultRate, 4);
-  for (int i = 0; i < 100; ++i) slow.learn(1e5, kPixels);
-  EXPECT_EQ(stepsAtRest(slow, false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}}));
+TEST(ResolutionControl, SharpensAtRestStepByStep) {
+  // A slow machine begins coarse and with one sample, and each step has four times the pixels.
+  EXPECT_EQ(stepsAtRest(learned(1e5), true),
+            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}, {1, 16}}));
+  EXPECT_EQ(stepsAtRest(learned(1e5), false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}}));
+  EXPECT_EQ(stepsAtRest(learned(1e5, kDefaultRate, 4), false),
+            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}}));
+  EXPECT_EQ(stepsAtRest(learned(150), false), (Steps{{0.5, 1}, {1, 1}}));  // 37 ms for a half
+  EXPECT_EQ(stepsAtRest(learned(10), true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
 }
 
 TEST(ResolutionControl, WhatIsShownGetsNoCoarser) {
-  ResolutionControl slow = learned(1e5);
-  EXPECT_EQ(stepsAtRest(slow, false, 0.25).front().scale, 0.25);
-  EXPECT_EQ(stepsAtRest(slow, false, 0.375).front().scale, 0.5);
-  EXPECT_EQ(stepsAtRest(slow, false, 1).front().scale, 1);
+  for (const auto& [shown, first] : {std::pair{0.25, 0.25}, {0.375, 0.5}, {1.0, 1.0}}) {
+    EXPECT_EQ(stepsAtRest(learned(1e5), false, shown).front().scale, first) << shown;
+  }
 }
 
 TEST(ResolutionControl, ComparedPicturesHaveTheSamplesAskedFor) {
@@ -172,9 +160,8 @@ TEST(ResolutionControl, SampledRaysGetMoreSamples) {
 }
 
 TEST(ResolutionControl, SamplesStayWithinTheirLimit) {
-  ResolutionControl control(kDefaultRate, kSppLimit);
-  const Sharpness last = stepsAtRest(control, true).back();
-  EXPECT_EQ(last, (Sharpness{1, kSppLimit}));
+  EXPECT_EQ(stepsAtRest(ResolutionControl(kDefaultRate, kSppLimit), true).back(),
+            (Sharpness{1, kSppLimit}));
 }
 
 }  // namespace

@@ -15,32 +15,24 @@ class SavedScenes : public Viewer {
  protected:
   void SetUp() override {
     Viewer::SetUp();
-    Image sky(4, 2);
-    for (std::size_t i = 0; i < sky.pixels.size(); ++i) {
-      sky.pixels[i] = {0.2f * static_cast<float>(i), 1, i == 1 ? 5.0f : 0.5f};
-    }
-    writeExr(folder_ / "sky.exr", sky, {});
+    writeSky(folder_ / "sky.exr");
   }
-  // Renders with the printed command, which must give the picture that was shown.
-  void expectThatItShows(const std::string& picture, const std::string& command) {
-    render(command, "again.png");
-    expectSameCodes(picture, "again.png");
+  Json read(const std::string& file) { return Json::parse(Viewer::read(file)); }
+  void expectThatItShows(const std::string& picture, const Words& commands) {
+    for (const std::string& command : commands) Viewer::expectThatItShows(picture, command);
   }
-  Json read(const std::string& file) { return Json::parse(cli::readFile(folder_ / file)); }
 };
 
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
-  const cli::Outcome outcome = play(
-      "asked\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 139\nwait 5 frames\nclick 100 208\nbare\nwait 20 frames\nwait sharp\n"
-      "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
-      {"--size", "800x480"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  const Words lines =
+      commandsOf(2,
+                 "asked\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
+                 "click 30 139\nwait 5 frames\nclick 100 208\nbare\nwait 20 frames\nwait sharp\n"
+                 "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
+                 "800x480");
   EXPECT_EQ(lines[0], "whit render tiny-edited.json -o tiny-edited.png --size=800x480");
   EXPECT_TRUE(hasText(lines[1], "tiny-edited-2.json")) << "it was overwritten";
-  expectThatItShows("shown.png", lines[0]);
+  expectThatItShows("shown.png", {lines[0]});
 
   // Only what was edited and the camera differ from the original file.
   const Json before = read("tiny.json"), after = read("tiny-edited.json");
@@ -58,7 +50,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
 TEST_F(SavedScenes, KeepTheirPath) {
   Json scene = read("tiny.json");
   scene["path"][0] = Json{{"time", 0}};
-  std::ofstream(folder_ / "tiny.json") << scene.dump();
+  write("tiny.json", scene.dump());
   play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
 
   LoadOptions options;
@@ -76,22 +68,20 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   fs::create_directories(folder_ / "sub/maps");
   writePng(folder_ / "sub/maps/t.png", DisplayImage{1, 1, {200, 90, 30, 255}}, {});
   fs::copy(folder_ / "sky.exr", folder_ / "sub/sky.exr");
-  std::ofstream(folder_ / "sub/m.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  std::ofstream(folder_ / "sub/s.json") << R"({"whit": 1, "parameters": {"fov": 40},
+  write("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("sub/s.json", R"({"whit": 1, "parameters": {"fov": 40},
     "cameras": {"c": {"eye": [0, 1, 4], "at": [0, 0.5, 0], "fov": "$fov"}},
     "sky": {"image": "sky.exr"}, "ambient": {"fromSky": 0.5},
     "textures": {"t": {"image": "maps/t.png"}}, "materials": {"m": {"diffuseMap": "t"}},
     "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
-    "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})";
+    "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})");
 
-  const cli::Outcome outcome = play(
+  const Words lines = commandsOf(
+      1,
       "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
       "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_FALSE(hasText(lines[0], "--allow-outside"));
-  expectThatItShows("shown.png", lines[0]);
+  expectThatItShows("shown.png", {lines[0]});
   // Paths are relative to the folder of the new file.
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
 }
@@ -99,33 +89,31 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
 // The copied command states the eye in coordinates of the model's file; the saved scene brings the
 // model to the origin.
 TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
-  std::ofstream(folder_ / "far.obj") << "v 4000000.1 500000 10\nv 4000001.1 500000 10\n"
-                                        "v 4000000.1 500001 10\nf 1 2 3\n";
-  const cli::Outcome outcome = play(
-      "drop far.obj\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
-      "wait 2 frames\nscreenshot shown.png\nkey C\nkey Ctrl+S\n");
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  write("far.obj",
+        "v 4000000.1 500000 10\nv 4000001.1 500000 10\n"
+        "v 4000000.1 500001 10\nf 1 2 3\n");
+  const Words lines =
+      commandsOf(2,
+                 "drop far.obj\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
+                 "wait 2 frames\nscreenshot shown.png\nkey C\nkey Ctrl+S\n");
   EXPECT_TRUE(hasText(lines[0], "--eye=400000"));
-  for (const std::string& line : lines) expectThatItShows("shown.png", line);
+  expectThatItShows("shown.png", lines);
 }
 
 TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
-  std::ofstream(folder_ / "tiny.json") << scene.dump();
+  write("tiny.json", scene.dump());
 
-  const cli::Outcome outcome = play(
-      "bare\nasked\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
-      "screenshot shown.png\nkey C\nkey Ctrl+S\n",
-      {"--spp", "2", "--fresnel", "schlick"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  const Words lines =
+      commandsOf(3,
+                 "bare\nasked\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
+                 "screenshot shown.png\nkey C\nkey Ctrl+S\n",
+                 "48x32", {"--spp", "2", "--fresnel", "schlick"});
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --fresnel=schlick");
   EXPECT_EQ(lines[1], lines[0] + " --exposure=0.25");
   EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
-  for (const std::string& line : {lines[1], lines[2]}) expectThatItShows("shown.png", line);
+  expectThatItShows("shown.png", {lines[1], lines[2]});
 
   EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
                                                        {"spp", 2},
@@ -134,23 +122,23 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
                                                        {"exposure", 0.25}}));
 }
 
-// An exposure that the user chose for one scene does not hold for the next one.
+// A dropped file opens. An exposure that the user chose for one scene does not hold for the next
+// one, which has a camera of its own.
 TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
-  std::ofstream(folder_ / "other.json") << scene.dump();
+  scene["cameras"]["front"]["eye"] = {1, 3, 7};
+  write("other.json", scene.dump());
 
-  const cli::Outcome outcome = play(
+  const Words lines = commandsOf(
+      3,
       "bare\nasked\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\ndrop tiny.json\nwait 60 frames\nwait sharp\nkey C\n",
-      {"--spp", "2"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+      "48x32", {"--spp", "2"});
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --exposure=0.25");
   EXPECT_EQ(lines[1], "whit render other.json -o other.png --size=48x32 --spp=2");
   EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=48x32 --spp=2");
-  expectThatItShows("shown.png", lines[1]);
+  expectThatItShows("shown.png", {lines[1]});
 }
 
 TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
@@ -159,33 +147,28 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
   std::ofstream(elsewhere / "far.json") << R"({"whit": 1, "sky": {"image": "sky.exr"},
     "scene": [{"shape": "sphere"}]})";
 
-  const cli::Outcome outcome =
-      play("drop " + (elsewhere / "far.json") +
-           "\nwait 60 frames\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
-           "key Ctrl+S\n");
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  const Words lines =
+      commandsOf(1, "drop " + (elsewhere / "far.json") +
+                        "\nwait 60 frames\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
+                        "key Ctrl+S\n");
   EXPECT_TRUE(hasText(lines[0], " --allow-outside"));
-  expectThatItShows("shown.png", lines[0]);
+  expectThatItShows("shown.png", {lines[0]});
 }
 
 TEST_F(SavedScenes, OfAModelHoldIt) {
   fs::create_directories(folder_ / "models");
-  std::ofstream(folder_ / "models/m.mtl") << "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n";
-  std::ofstream(folder_ / "models/m.obj")
-      << "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n";
+  write("models/m.mtl", "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n");
+  write("models/m.obj",
+        "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n");
 
-  const cli::Outcome outcome = play(
+  const Words lines = commandsOf(
+      3,
       "drop models/m.obj\nwait 60 frames\nkey D 0.2\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\nwait sharp\n"
       "screenshot sky.png\nkey Ctrl+S\n",
-      {"--size", "120x80"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
-  for (const std::string& line : {lines[0], lines[1]}) expectThatItShows("shown.png", line);
-  expectThatItShows("sky.png", lines[2]);
+      "120x80");
+  expectThatItShows("shown.png", {lines[0], lines[1]});
+  expectThatItShows("sky.png", {lines[2]});
 
   // A model is named by the scene and not copied into it.
   const Json scene = read("m-edited.json");
@@ -195,55 +178,43 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
 }
 
 TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{}, {"--sky", "studio"}, {"--sky", "none"}}) {
-    std::vector<std::string> all{"--size", "120x80"};
-    all.insert(all.end(), words.begin(), words.end());
-    const cli::Outcome outcome = play(
+  for (const Words& options : {Words{}, {"--sky", "studio"}, {"--sky", "none"}}) {
+    const Words lines = commandsOf(
+        3,
         "bare\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
         "wait sharp\nscreenshot sky.png\nkey C\nkey Ctrl+S\n",
-        all);
-
-    const std::vector<std::string> lines = linesOf(outcome.out);
-    ASSERT_EQ(lines.size(), 3u) << outcome.out;
-    EXPECT_NE(codes("own.png").codes, codes("sky.png").codes);
-    expectThatItShows("own.png", lines[0]);
+        "120x80", options);
+    expectOtherCodes("own.png", "sky.png");
+    expectThatItShows("own.png", {lines[0]});
     EXPECT_FALSE(hasText(lines[1], "--sky"));
-    expectThatItShows("sky.png", lines[1]);
-    expectThatItShows("sky.png", lines[2]);
+    expectThatItShows("sky.png", {lines[1], lines[2]});
   }
 }
 
 // The clicks change the sky's brightness and rotation in the panel, and turn on ambient light from
 // the sky.
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
-  const cli::Outcome outcome = play(
-      "drop sky.exr\nasked\npanel scene\nwait 30 frames\nwait sharp\n"
-      "click 93 256 120 256\nclick 60 280 150 280\nclick 30 304\nwait 5 frames\n"
-      "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
-      "key Ctrl+S\n",
-      {"--size", "800x560"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  const Words lines =
+      commandsOf(2,
+                 "drop sky.exr\nasked\npanel scene\nwait 30 frames\nwait sharp\n"
+                 "click 93 256 120 256\nclick 60 280 150 280\nclick 30 304\nwait 5 frames\n"
+                 "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
+                 "key Ctrl+S\n",
+                 "800x560");
 
   const Json sky = read("tiny-edited.json")["sky"];
   EXPECT_NE(sky["scale"], 1);
   EXPECT_NE(sky["rotation"], 0);
   EXPECT_TRUE(read("tiny-edited.json")["ambient"].contains("fromSky"));
-  for (const std::string& line : lines) expectThatItShows("shown.png", line);
+  expectThatItShows("shown.png", lines);
 }
 
 TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
-  std::ofstream(folder_ / "bad.hdr") << "#?RADIANCE\n\n-Y 1 +X 1000000\n";
-
-  const cli::Outcome outcome = play(
+  write("bad.hdr", "#?RADIANCE\n\n-Y 1 +X 1000000\n");
+  const Words lines = commandsOf(
+      2,
       "errors show\nbare\nasked\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
       "key Ctrl+S\nkey C\n");
-  EXPECT_TRUE(hasText(outcome.err, "bad.hdr"));
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=48x32");
   EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }

@@ -19,11 +19,15 @@ class Sessions : public testing::Test {
     options_.common.quiet = true;
     options_.common.render.threads = 2;
     options_.scene = cli::writeTinyScene(folder_);
-    session_ = std::make_unique<Session>(
-        options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
+    begin(openAndWarn(options_.scene, options_.common, nullptr));
+    settle();
+  }
+
+  // Begins another session, without a scene where there is none.
+  void begin(std::shared_ptr<OpenScene> scene) {
+    session_ = std::make_unique<Session>(options_, std::move(scene), [] {});
     session_->setWindow({48, 32}, 32, 1);
     session_->endSupersampling();
-    settle();
   }
 
   const ViewState& state() const { return session_->state(); }
@@ -49,6 +53,11 @@ class Sessions : public testing::Test {
     session_->act(line);
     settle();
   }
+  std::string command() const { return session_->command(); }
+  void expectNothingToUndo() {
+    session_->act("undo");
+    EXPECT_EQ(state().message, "there is nothing to undo");
+  }
   std::vector<std::string> settings() const { return state().shown.edited->settings; }
 
   cli::TemporaryFolder folder_;
@@ -72,8 +81,7 @@ TEST_F(Sessions, OptionsAndEditsAreUndone) {
   act("undo");
   EXPECT_EQ(state().options.depth, kDepthLimit);
 
-  session_->act("undo");
-  EXPECT_EQ(state().message, "there is nothing to undo");
+  expectNothingToUndo();
 }
 
 TEST_F(Sessions, AnEditThatFailsIsNoStateToReturnTo) {
@@ -82,29 +90,22 @@ TEST_F(Sessions, AnEditThatFailsIsNoStateToReturnTo) {
   EXPECT_EQ(settings(), none_);
   EXPECT_EQ(state().edited.settings, none_);
 
-  session_->act("undo");
-  EXPECT_EQ(state().message, "there is nothing to undo");
+  expectNothingToUndo();
 }
 
 TEST_F(Sessions, EditsOutliveAReload) {
-  edit(lamp_[0]);
-  const auto before = state().scene;
-  act("reload");
-  EXPECT_NE(state().scene, before);
-  EXPECT_EQ(settings(), lamp_);
+  for (const bool isReadMeanwhile : {false, true}) {
+    const auto before = state().scene;
+    if (isReadMeanwhile) session_->act("reload");
+    edit(lamp_[0]);
+    if (!isReadMeanwhile) act("reload");
+    EXPECT_NE(state().scene, before);
+    EXPECT_EQ(settings(), lamp_);
+    EXPECT_EQ(state().edited.settings, lamp_);
 
-  act("undo");
-  EXPECT_EQ(settings(), none_);
-}
-
-TEST_F(Sessions, EditsMadeWhileTheSceneIsReadAgainStay) {
-  session_->act("reload");
-  edit(lamp_[0]);
-  EXPECT_EQ(settings(), lamp_);
-  EXPECT_EQ(state().edited.settings, lamp_);
-
-  act("undo");
-  EXPECT_EQ(settings(), none_);
+    act("undo");
+    EXPECT_EQ(settings(), none_);
+  }
 }
 
 // The scene is read again, and before its picture is fetched another scene is to be opened.
@@ -140,36 +141,34 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   options_.common.render.camera = "side";
   options_.common.render.fov = 30.0;
   options_.common.given = {"camera", "fov"};
-  session_ = std::make_unique<Session>(
-      options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
-  session_->setWindow({48, 32}, 32, 1);
+  begin(openAndWarn(options_.scene, options_.common, nullptr));
   settle();
-  const std::string given = session_->command();
+  const std::string given = command();
   EXPECT_TRUE(hasText(given, "--fov=30 "));
   EXPECT_TRUE(hasText(given, lamp_[0]));
 
-  session_ = std::make_unique<Session>(options_, nullptr, [] {});
-  session_->setWindow({48, 32}, 32, 1);
+  begin(nullptr);
   settle();
   EXPECT_TRUE(session_->choosesScene());
-  EXPECT_EQ(session_->command(), "") << "the empty scene has a command";
+  EXPECT_EQ(command(), "") << "the empty scene has a command";
   session_->open(options_.scene);
   settle();
-  EXPECT_EQ(session_->command(), given);
+  EXPECT_EQ(command(), given);
   EXPECT_FALSE(session_->hasUnsavedEdits());
+  act("reload");
+  EXPECT_EQ(command(), given);
 
   // Neither holds for another scene, which has no such camera.
   session_->open("whitted");
   settle();
   EXPECT_EQ(state().error, "");
-  EXPECT_EQ(session_->command().find("whit render whitted -o whitted.png --size"), 0u);
-  EXPECT_FALSE(hasText(session_->command(), "--fov"));
+  EXPECT_TRUE(command().starts_with("whit render whitted -o whitted.png --size"));
+  EXPECT_FALSE(hasText(command(), "--fov"));
   EXPECT_EQ(settings(), none_);
 }
 
 TEST_F(Sessions, AFirstSceneThatCannotBeReadLeavesTheChoice) {
-  session_ = std::make_unique<Session>(options_, nullptr, [] {});
-  session_->setWindow({48, 32}, 32, 1);
+  begin(nullptr);
   session_->open("missing.json");
   settle();
   EXPECT_TRUE(hasText(state().error, "missing.json"));
@@ -221,9 +220,7 @@ std::string writeTwoAnimations(const std::string& file) {
 TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   options_.common.load.instant.plays = true;
   options_.scene = writeTwoAnimations(folder_ / "m.gltf");
-  session_ = std::make_unique<Session>(
-      options_, openAndWarn(options_.scene, options_.common, nullptr), [] {});
-  session_->setWindow({48, 32}, 32, 1);
+  begin(openAndWarn(options_.scene, options_.common, nullptr));
   session_->act("play");
   settle();
   ASSERT_EQ(state().timeline.animation, "walk");
@@ -242,10 +239,10 @@ TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
 
 // The views of a debug view have another command, because whit render does not make them.
 TEST_F(Sessions, TheCommandMakesWhatIsShown) {
-  EXPECT_EQ(session_->command().rfind("whit render ", 0), 0u);
+  EXPECT_TRUE(command().starts_with("whit render "));
   act("view depth");
-  EXPECT_EQ(session_->command().rfind("whit-view ", 0), 0u);
-  EXPECT_TRUE(hasText(session_->command(), " --view=depth"));
+  EXPECT_TRUE(command().starts_with("whit-view "));
+  EXPECT_TRUE(hasText(command(), " --view=depth"));
 }
 
 }  // namespace

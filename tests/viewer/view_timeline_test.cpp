@@ -1,5 +1,4 @@
 // Scenes that move, in the viewer.
-#include "output/open_and_warn.h"
 #include "viewer/panel.h"
 
 #include "has_text.h"
@@ -55,7 +54,7 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
 }
 
 // A ball that rises, a lamp that sinks, a camera that moves aside.
-std::string writeMovingScene(const cli::TemporaryFolder& folder) {
+void writeMovingScene(const cli::TemporaryFolder& folder) {
   const auto keys = [](const std::string& to) {
     return "\"motion\": {\"keys\": [{\"time\": 0}, {\"time\": 2, \"translate\": " + to + "}]}";
   };
@@ -69,15 +68,14 @@ std::string writeMovingScene(const cli::TemporaryFolder& folder) {
          "\"quad\", "
          "\"width\": 8, \"depth\": 8}, {\"shape\": \"sphere\", \"material\": \"red\", "
       << keys("[0, 2, 0]") << "}]}";
-  return folder / "tiny.json";
 }
 
 class MovingPictures : public RenderThreadTest {
  protected:
   MovingPictures() {
-    name_ = writeMovingScene(folder_);
+    writeMovingScene(folder_);
     common_.load.instant.plays = true;
-    opened_ = openAndWarn(name_, common_, nullptr);
+    open(name_);
   }
   // Compares with the scene as it is read at that time.
   void expectPictureAt(double seconds, RenderThread& thread) {
@@ -90,46 +88,37 @@ class MovingPictures : public RenderThreadTest {
 };
 
 TEST_F(MovingPictures, AreOfTheirTime) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   for (const double seconds : {1.2, 0.0, 2.0}) expectPictureAt(seconds, thread);
 }
 
 // The lamp's color is edited, then where it begins; it goes on moving from there.
 TEST_F(MovingPictures, KeepWhatWasEdited) {
-  RenderThread thread(opened_, common_, [] {});
+  RenderThread thread = begin();
   expectPictureAt(1.2, thread);
-
-  thread.edit({opened_, {"/lights/0/intensity=90"}, ""});
-  request_.edits = 1;
-  common_.load.settings = {"/lights/0/intensity=90"};
-  expectPictureAt(1.2, thread);
-
-  thread.edit({opened_, {"/lights/0/intensity=90", "/lights/0/position=[1, 6, 5]"}, ""});
-  request_.edits = 2;
-  common_.load.settings.emplace_back("/lights/0/position=[1, 6, 5]");
-  for (const double seconds : {1.2, 0.4}) expectPictureAt(seconds, thread);
+  for (const char* setting : {"/lights/0/intensity=90", "/lights/0/position=[1, 6, 5]"}) {
+    common_.load.settings.emplace_back(setting);
+    thread.edit({opened_, common_.load.settings});
+    ++request_.edits;
+    for (const double seconds : {1.2, 0.4}) expectPictureAt(seconds, thread);
+  }
 }
 
 TEST_F(Viewer, PlaysUntilItIsPaused) {
   writeMovingScene(folder_);
-  const cli::Outcome outcome = play(
-      "bare\nasked\nwait 58 frames\nkey Space\nwait 3 frames\nwait sharp\nscreenshot "
-      "shown.png\nkey "
-      "C\n"
-      "key A 0.2\nkey Space\nwait 30 frames\nkey Space\nwait sharp\nkey C\n",
-      {"--size", "240x160"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  const Words lines =
+      commandsOf(2,
+                 "bare\nasked\nwait 58 frames\nkey Space\nwait 3 frames\nwait sharp\n"
+                 "screenshot shown.png\nkey C\n"
+                 "key A 0.2\nkey Space\nwait 30 frames\nkey Space\nwait sharp\nkey C\n",
+                 "240x160");
   // The camera's own place is that of the file at this time.
-  EXPECT_EQ(lines[0].rfind("whit render tiny.json -o tiny.png --size=240x160 --time 1.0", 0), 0u)
+  EXPECT_TRUE(lines[0].starts_with("whit render tiny.json -o tiny.png --size=240x160 --time 1.0"))
       << lines[0];
-
   // The paused picture is the one that the command renders at this time.
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
+  expectThatItShows("shown.png", lines[0]);
 
-  EXPECT_TRUE(hasText(lines[1], "--eye")) << "moved by hand: " << lines[1];
+  EXPECT_TRUE(hasText(lines[1], "--eye")) << "moved by hand";
   EXPECT_TRUE(hasText(lines[1], "--time 1."));
 }
 
@@ -137,18 +126,15 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
 // gets sharp. Dear ImGui 1.90 takes a click of a script only where the pointer has rested.
 TEST_F(Viewer, TheTimeBarPauses) {
   writeMovingScene(folder_);
-  const cli::Outcome outcome =
-      play("asked\npoint 135 272\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n",
-           {"--size", "400x300"});
-  EXPECT_TRUE(hasText(outcome.out, " --time "));
+  const Words lines = commandsOf(
+      1, "asked\npoint 135 272\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n", "400x300");
+  EXPECT_TRUE(hasText(lines[0], " --time "));
 }
 
 TEST_F(Viewer, AScenePausedAtATimeShowsThat) {
   writeMovingScene(folder_);
-  const cli::Outcome outcome =
-      play("asked\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.50390625"});
-  EXPECT_EQ(linesOf(outcome.out).at(0),
-            "whit render tiny.json -o tiny.png --size=240x160 --time 1.50390625");
+  EXPECT_EQ(commandsOf(1, "asked\nwait sharp\nkey C\n", "240x160", {"--time", "1.50390625"}),
+            Words{"whit render tiny.json -o tiny.png --size=240x160 --time 1.50390625"});
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include <cstring>
-
 #include "has_text.h"
 #include "viewer/panel.h"
 #include "viewer/session/view_files.h"
@@ -13,87 +11,105 @@
 namespace whit::view {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
-  const cli::Outcome outcome = play(
-      "bare\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
-      "screenshot shown.png\nkey C\n",
-      {"--size", "240x160"});
+// A script that prints commands, all of them equal, which render `picture`.
+struct Shown {
+  const char *name, *script, *size;
+  std::vector<std::string> options;
+  std::vector<std::string> parts;  // of the command
+  std::size_t commands = 1;
+  const char* picture = "shown.png";
+  const char* begins = "whit render tiny.json -o tiny.png ";
+};
+void PrintTo(const Shown& shown, std::ostream* out) { *out << shown.name; }
 
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  EXPECT_FALSE(hasText(lines[0], "--eye=0,2,6")) << "it has not moved: " << lines[0];
-  EXPECT_TRUE(hasText(lines[0], "--exposure=0.25"));
+class PrintedCommands : public Viewer, public testing::WithParamInterface<Shown> {};
 
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
+TEST_P(PrintedCommands, RenderWhatIsShown) {
+  const Shown& shown = GetParam();
+  const Words lines = commandsOf(shown.commands, shown.script, shown.size, shown.options);
+  EXPECT_TRUE(lines[0].starts_with(shown.begins)) << lines[0];
+  for (const std::string& part : shown.parts) EXPECT_TRUE(hasText(lines[0], part));
+  EXPECT_FALSE(hasText(lines[0], "--eye=0,2,6")) << "it has not moved";
+  EXPECT_EQ(lines.back(), lines[0]);
+  expectThatItShows(shown.picture, lines[0]);
 }
+
+const Shown kShown[] = {
+    {"AfterMoves",
+     "bare\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
+     "screenshot shown.png\nkey C\n",
+     "240x160",
+     {},
+     {"--eye=", "--exposure=0.25"}},
+    {"WithParallelRays",
+     "bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+     "240x160",
+     {"--ortho", "3"},
+     {"--ortho=3"},
+     2},
+    // No option gives a lens, so the camera that has it is named.
+    {"WithALens",
+     "bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+     "240x160",
+     {"--spp", "4", "--camera", "side", "--set", "/cameras/side/aperture=0.3"},
+     {"--camera=side", "--eye="},
+     2},
+    // F12 is pressed in motion, where the picture is coarser and has one sample.
+    {"SavedInMotion",
+     "asked\nkey D 0.3\nkey F12\nwait 3 frames\nwait sharp\nkey C\n",
+     "400x300",
+     {"--spp", "4", "--light-samples", "4"},
+     {"--size=400x300", "--spp=4", "--light-samples=4"},
+     2,
+     "tiny-0001.png"},
+    // A reload before the dropped scene is there loads the dropped scene.
+    {"OfADroppedSceneReadAgain",
+     "bare\nasked\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
+     "screenshot shown.png\nkey C\n",
+     "48x32",
+     {},
+     {},
+     1,
+     "shown.png",
+     "whit render whitted "},
+    {"FullScreenMinimizedAndResized",
+     "bare\nkey F11\nwait 5 frames\nkey F11\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
+     "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n",
+     "48x32",
+     {},
+     {"--size=200x100"}},
+};
+INSTANTIATE_TEST_SUITE_P(All, PrintedCommands, testing::ValuesIn(kShown),
+                         [](const auto& shown) { return std::string(shown.param.name); });
 
 // The command is pasted into a shell as it is.
 TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
-  const cli::Outcome outcome = play(
+  const Words lines = commandsOf(
+      2,
       "bare\nasked\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
       "wait 20 frames\nwait sharp\nscreenshot second.png\nkey C\n",
-      {"--size", "scene"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png");
-  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --camera=side");
-
+      "");
+  EXPECT_EQ(lines, (Words{"whit render tiny.json -o tiny.png",
+                          "whit render tiny.json -o tiny.png --camera=side"}));
   paste(lines[0]);
   expectSameCodes("first.png", "tiny.png");
   paste(lines[1]);
   expectSameCodes("second.png", "tiny.png");
 }
 
-TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
-  const cli::Outcome outcome =
-      play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
-           {"--size", "240x160", "--ortho", "3"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_EQ(lines[1], lines[0]);
-  EXPECT_TRUE(hasText(lines[0], "--ortho=3"));
-
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
-}
-
-// No option gives a lens, so the camera that has it is named.
-TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
-  const cli::Outcome outcome =
-      play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
-           {"--size", "240x160", "--spp", "4", "--camera", "side", "--set",
-            "/cameras/side/aperture=0.3"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_TRUE(hasText(lines[0], "--camera=side"));
-  EXPECT_TRUE(hasText(lines[0], "--eye="));
-
-  render(lines[0], "again.png");
-  expectSameCodes("shown.png", "again.png");
-}
-
 TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
-  const cli::Outcome outcome =
-      play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  const Words lines =
+      commandsOf(3, "key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
   EXPECT_EQ(lines[0], lines[2]);
   EXPECT_TRUE(hasText(lines[0], "--eye=-"));  // it flew to the left
 
-  render(lines[0], "again.png");
-  render(lines[0], "again.exr");
-  expectSameCodes("tiny-0001.png", "again.png");
-  EXPECT_EQ(cli::readFile(folder_ / "tiny-0001.exr"), cli::readFile(folder_ / "tiny-0002.exr"));
+  expectThatItShows("tiny-0001.png", lines[0]);
+  EXPECT_EQ(read("tiny-0001.exr"), read("tiny-0002.exr"));
 
   // The EXR of the command has the same bits.
+  render(lines[0], "again.exr");
   const Image saved = readImage(folder_ / "tiny-0001.exr", ImageLimits());
   const Image again = readImage(folder_ / "again.exr", ImageLimits());
   ASSERT_EQ(saved.pixels.size(), again.pixels.size());
@@ -102,27 +118,15 @@ TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
 }
 
 TEST_F(Viewer, KeysChooseCameras) {
-  const cli::Outcome outcome = play(
-      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey S 0.3\nwait 3 frames\nwait sharp\n"
-      "key C\nkey 2\nwait 3 frames\nwait sharp\nkey C\n");
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  const Words lines =
+      commandsOf(3,
+                 "key 2\nwait 3 frames\nwait sharp\nkey C\nkey S 0.3\nwait 3 frames\nwait sharp\n"
+                 "key C\nkey 2\nwait 3 frames\nwait sharp\nkey C\n");
   EXPECT_TRUE(hasText(lines[0], " --camera=side"));
   EXPECT_FALSE(hasText(lines[0], "--eye"));
   // A camera that has moved is printed in full, and key 2 brings back the own one.
   EXPECT_NE(lines[1], lines[0]);
   EXPECT_EQ(lines[2], lines[0]);
-}
-
-// Returns true if the bytes of a rectangle of both pictures are equal.
-bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1) {
-  const auto channels = static_cast<std::size_t>(a.channels);
-  for (int y = y0; y < y1; ++y) {
-    const std::size_t from = static_cast<std::size_t>(y * a.width + x0) * channels;
-    const std::size_t bytes = static_cast<std::size_t>(x1 - x0) * channels;
-    if (std::memcmp(&a.codes[from], &b.codes[from], bytes) != 0) return false;
-  }
-  return true;
 }
 
 // One line at the bottom names the key for help, until a key is pressed; H opens the panel.
@@ -131,38 +135,33 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
       "wait sharp\nwait 300 frames\nscreenshot start.png\nkey Shift\nwait 2 frames\n"
       "screenshot picture.png\nkey P\nwait 4 frames\nscreenshot panel.png\nbare\n"
       "wait 2 frames\nscreenshot bare.png\n",
-      {"--size", "500x300"});
+      "500x300");
 
-  const RawImage start = codes("start.png"), bare = codes("bare.png"), panel = codes("panel.png");
+  const RawImage start = codes("start.png"), bare = codes("bare.png");
   EXPECT_TRUE(sameIn(start, bare, 0, 0, 500, 260));
   EXPECT_FALSE(sameIn(start, bare, 0, 260, 500, 300));
   expectSameCodes("picture.png", "bare.png");
-  EXPECT_FALSE(sameIn(panel, bare, 10, 10, 400, 200));
+  EXPECT_FALSE(sameIn(codes("panel.png"), bare, 10, 10, 400, 200));
 }
 
 // The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
-  const cli::Outcome first = play("wait sharp\nkey C\nkey P\nwait 2 frames\n", {"--size", "scene"});
-  EXPECT_TRUE(hasText(first.out, " --size=533x355"));
-
-  const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
-  EXPECT_TRUE(hasText(kept, "\"panel\": true"));
-  EXPECT_TRUE(hasText(kept, "/tiny.json\""));
+  const auto kept = [&] { return read("whit/viewer.json"); };
+  EXPECT_TRUE(
+      hasText(play("wait sharp\nkey C\nkey P\nwait 2 frames\n", "").out, " --size=533x355"));
+  EXPECT_TRUE(hasText(kept(), "\"panel\": true"));
+  EXPECT_TRUE(hasText(kept(), "/tiny.json\""));
 
   // The size of the window is kept for the next run.
-  play("wait sharp\nresize 300 300\nwait 10 frames\n", {"--size", "scene"});
-  const cli::Outcome third = play("wait sharp\nkey C\n", {"--size", "scene"});
-  EXPECT_TRUE(hasText(third.out, " --size=300x200"));
-}
+  play("wait sharp\nresize 300 300\nwait 10 frames\n", "");
+  EXPECT_TRUE(hasText(play("wait sharp\nkey C\n", "").out, " --size=300x200"));
 
-TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
-  play("wait sharp\nresize 2400 2400\nwait 10 frames\n", {"--size", "scene"});
-  const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
-  EXPECT_TRUE(hasText(kept, "2400,\n    2400"));
-
-  const cli::Outcome second = play("wait sharp\nkey C\n", {"--size", "scene"});
-  EXPECT_TRUE(hasText(second.out, " --size=800x533"));
-  EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // kept for a larger screen
+  // It is limited to the screen, and kept for a larger one.
+  play("wait sharp\nresize 2400 2400\nwait 10 frames\n", "");
+  const std::string large = kept();
+  EXPECT_TRUE(hasText(large, "2400,\n    2400"));
+  EXPECT_TRUE(hasText(play("wait sharp\nkey C\n", "").out, " --size=800x533"));
+  EXPECT_EQ(kept(), large);
 }
 
 // A pixel is clicked on at the left: the panel is at its right. Another one is in the middle, where
@@ -172,86 +171,53 @@ TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
       "bare\nasked\nwait sharp\nscreenshot bare.png\nclick 60 100\nwait 2 frames\nkey T\n"
       "wait 4 frames\nwait sharp\nscreenshot left.png\nbare\nwait 2 frames\nclick 240 160\n"
       "wait 2 frames\nkey T\nwait 4 frames\nwait sharp\nscreenshot middle.png\n",
-      {"--size", "500x300"});
+      "500x300");
 
-  const RawImage bare = codes("bare.png");
-  EXPECT_TRUE(sameIn(codes("left.png"), bare, 0, 0, 70, 300));
-  EXPECT_FALSE(sameIn(codes("left.png"), bare, 100, 0, 500, 300));
-  EXPECT_TRUE(sameIn(codes("middle.png"), bare, 0, 150, 500, 300));
-  EXPECT_FALSE(sameIn(codes("middle.png"), bare, 0, 0, 500, 150));
+  const RawImage bare = codes("bare.png"), left = codes("left.png"), middle = codes("middle.png");
+  EXPECT_TRUE(sameIn(left, bare, 0, 0, 70, 300));
+  EXPECT_FALSE(sameIn(left, bare, 100, 0, 500, 300));
+  EXPECT_TRUE(sameIn(middle, bare, 0, 150, 500, 300));
+  EXPECT_FALSE(sameIn(middle, bare, 0, 0, 500, 150));
 }
 
 // No drag loses a model; F fits it.
 TEST_F(Viewer, AModelStaysInThePicture) {
-  std::ofstream(folder_ / "box.obj")
-      << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-
-  const cli::Outcome outcome = play(
+  write("box.obj",
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  play(
       "bare\nasked\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
       "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"
       "key F\nwait 3 frames\nwait sharp\nscreenshot fit.png\nwheel 3\nmouse middle 30 9\n"
       "wait 3 frames\nwait sharp\nkey F\nbare\nwait 3 frames\nwait sharp\n"
       "screenshot again.png\n",
-      {"--size", "240x160"});
+      "240x160");
 
-  // The share of pixels that differ from the corner, which shows the background.
+  // The number of pixels that differ from the corner, which shows the background.
   const auto covered = [&](const char* file) {
     const RawImage image = codes(file);
     const auto channels = static_cast<std::size_t>(image.channels);
-    std::size_t other = 0;
+    int other = 0;
     for (std::size_t i = channels; i < image.codes.size(); i += channels) {
       other += std::memcmp(&image.codes[0], &image.codes[i], 3) != 0;
     }
-    return static_cast<double>(other) / (240 * 160);
+    return other;
   };
 
-  EXPECT_GT(covered("far.png"), 0.001);
-  EXPECT_GT(covered("fit.png"), 0.2);
+  EXPECT_GT(covered("far.png"), 240 * 160 / 1000);
+  EXPECT_GT(covered("fit.png"), 240 * 160 / 5);
   expectSameCodes("again.png", "fit.png");
-}
-
-// F12 is pressed in motion, where the picture is coarser and has one sample.
-TEST_F(Viewer, TheSavedPictureHasAllPixelsAndSamples) {
-  const cli::Outcome outcome = play("asked\nkey D 0.3\nkey F12\nwait 3 frames\nwait sharp\nkey C\n",
-                                    {"--size", "400x300", "--spp", "4", "--light-samples", "4"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_EQ(lines[0], lines[1]);
-  for (const char* part : {"--size=400x300", "--spp=4", "--light-samples=4"}) {
-    EXPECT_TRUE(hasText(lines[0], part));
-  }
-  render(lines[0], "again.png");
-  expectSameCodes("tiny-0001.png", "again.png");
 }
 
 // The file, its name and the printed command are those of the view.
 TEST_F(Viewer, TheSavedDebugViewIsTheOneShown) {
-  const cli::Outcome outcome =
-      play("bare\nasked\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey F12\n",
-           {"--size", "240x160", "--view", "depth"});
-
-  EXPECT_EQ(outcome.out.find("whit-view tiny.json --view=depth "), 0u) << outcome.out;
+  const Words lines =
+      commandsOf(1, "bare\nasked\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey F12\n",
+                 "240x160", {"--view", "depth"});
+  EXPECT_TRUE(lines[0].starts_with("whit-view tiny.json --view=depth ")) << lines[0];
   expectSameCodes("tiny-depth-0001.png", "shown.png");
-  EXPECT_FALSE(fs::exists(folder_ / "tiny-depth-0001.exr")) << "that would be the picture";
-  EXPECT_NE(cli::readFile(folder_ / "tiny-depth-0001.png").find("view\0depth"s), std::string::npos);
-}
-
-TEST_F(Viewer, TheSavedReferenceIsThatOfItsCommand) {
-  const cli::Outcome outcome =
-      play("bare\nasked\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey F12\n",
-           {"--size", "48x32", "--view", "reference"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
-  expectSameCodes("tiny-reference-0001.png", "shown.png");
-  for (const char* extension : {".png", ".exr"}) {
-    render(lines[0], std::string("again") + extension);
-    const Image saved = readImage(folder_ / ("tiny-reference-0001"s + extension), ImageLimits());
-    const Image again = readImage(folder_ / ("again"s + extension), ImageLimits());
-    EXPECT_EQ(saved.pixels, again.pixels) << extension;
-  }
+  EXPECT_FALSE(exists("tiny-depth-0001.exr")) << "that would be the picture";
+  EXPECT_NE(read("tiny-depth-0001.png").find("view\0depth"s), std::string::npos);
 }
 
 // The list of cameras and the keys take the place of the panel. Escape closes what is open, and
@@ -262,15 +228,13 @@ TEST_F(Viewer, EscapeClosesWhatIsOpen) {
       "key P\nwait 5 frames\nscreenshot panel.png\nkey L\nwait 5 frames\nscreenshot list.png\n"
       "key H\nwait 5 frames\nscreenshot keys.png\nkey Esc\nwait 5 frames\n"
       "screenshot closed.png\nkey Esc\nwait 3 frames\nscreenshot never.png\n",
-      {"--size", "500x300"});
+      "500x300");
   expectSameCodes("closed.png", "first.png");
-  const std::array<std::vector<std::uint8_t>, 4> shown{
-      codes("panel.png").codes, codes("list.png").codes, codes("keys.png").codes,
-      codes("closed.png").codes};
+  const std::array shown{"panel.png", "list.png", "keys.png", "closed.png"};
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(shown[i], shown[k]) << i << ' ' << k;
+    for (std::size_t k = 0; k < i; ++k) expectOtherCodes(shown[i], shown[k]);
   }
-  EXPECT_FALSE(fs::exists(folder_ / "never.png"));
+  EXPECT_FALSE(exists("never.png"));
 }
 
 // The list of cameras is at the right; its second entry is clicked on. Dear ImGui 1.90 takes a
@@ -279,20 +243,16 @@ TEST_F(Viewer, CamerasAreChosenFromTheirList) {
   const cli::Outcome outcome = play(
       "asked\nkey L\nwait 5 frames\npoint 440 61\nwait 20 frames\nclick 440 61\n"
       "wait 3 frames\nwait sharp\nkey C\n",
-      {"--size", "500x300"});
+      "500x300");
   EXPECT_TRUE(hasText(outcome.out, " --camera=side"));
 }
 
 TEST_F(Viewer, TheListOfCamerasStaysInTheWindow) {
-  std::string scene = cli::readFile(folder_ / "tiny.json");
-  const std::string name = "side";
-  scene.replace(scene.find(name), name.size(), std::string(100, 'x'));
-  std::ofstream(folder_ / "tiny.json") << scene;
-
+  writeChanged("tiny.json", "side", std::string(100, 'x'));
   play(
       "asked\nbare\nwait sharp\nscreenshot closed.png\nkey L\nwait 5 frames\nwait sharp\n"
       "screenshot open.png\n",
-      {"--size", "300x200"});
+      "300x200");
 
   constexpr int kBeside = 9;  // pixels, less than the margin of the list
   const RawImage closed = codes("closed.png"), open = codes("open.png");
@@ -323,36 +283,33 @@ TEST(PanelText, DoesNotBreakNumbers) {
 }
 
 // The first edit is of the lamp, the second one of its position.
-constexpr char kTwoEdits[] =
+const std::string kTwoEdits =
     "asked\npanel scene\nwait 10 frames\nclick 30 139\nwait 5 frames\nclick 100 208\n"
     "wait 60 frames\nclick 60 160 130 160\nwait 60 frames\nwait sharp\nkey C\n";
 
 TEST_F(Viewer, EditsAreUndoneOneByOne) {
-  const cli::Outcome outcome =
-      play(std::string(kTwoEdits) +
-               "key Ctrl+Z\nwait 60 frames\nwait sharp\nkey C\nkey Ctrl+Z\nkey Ctrl+Z\n"
-               "wait 60 frames\nbare\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\n",
-           {"--size", "800x480"});
-
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  const Words lines = commandsOf(
+      3,
+      kTwoEdits +
+          "key Ctrl+Z\nwait 60 frames\nwait sharp\nkey C\nkey Ctrl+Z\nkey Ctrl+Z\n"
+          "wait 60 frames\nbare\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\n",
+      "800x480");
   EXPECT_TRUE(hasText(lines[0], "/lights/0/position="));
   EXPECT_TRUE(hasText(lines[1], "/lights/0/intensity="));
   EXPECT_FALSE(hasText(lines[1], "/lights/0/position="));
   EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=800x480");
-  render(lines[2], "again.png");
-  expectSameCodes("shown.png", "again.png");
+  expectThatItShows("shown.png", lines[2]);
 }
 
 TEST_F(Viewer, AsksBeforeEditsAreLost) {
   const std::string escapes = "key Esc\nwait 3 frames\nkey Esc\nwait 3 frames\n";
   play(kTwoEdits + escapes + "screenshot asked.png\nkey Esc\nwait 3 frames\nscreenshot no.png\n",
-       {"--size", "800x480"});
-  EXPECT_TRUE(fs::exists(folder_ / "asked.png"));
-  EXPECT_FALSE(fs::exists(folder_ / "no.png"));
+       "800x480");
+  EXPECT_TRUE(exists("asked.png"));
+  EXPECT_FALSE(exists("no.png"));
 
-  play(kTwoEdits + ("key Ctrl+S\n" + escapes) + "screenshot saved.png\n", {"--size", "800x480"});
-  EXPECT_FALSE(fs::exists(folder_ / "saved.png"));
+  play(kTwoEdits + "key Ctrl+S\n" + escapes + "screenshot saved.png\n", "800x480");
+  EXPECT_FALSE(exists("saved.png"));
 }
 
 TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {
@@ -364,19 +321,16 @@ TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {
 }
 
 TEST_F(Viewer, ErrorsEndAScript) {
-  std::ofstream(folder_ / "script.txt") << "drop missing.json\nwait 60 frames\nwait sharp\n";
-  const cli::Outcome outcome = view({"--script", "script.txt"});
+  const cli::Outcome outcome = run("drop missing.json\nwait 60 frames\nwait sharp\n");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(hasText(outcome.err, "missing.json"));
-
-  std::ofstream(folder_ / "script.txt") << "wait\n";
-  EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
+  EXPECT_EQ(run("wait\n").status, 3);
 
   // A first scene that cannot be read, or lacks the camera, ends it as it ends other commands.
-  std::ofstream(folder_ / "script.txt") << "errors show\nwait 60 frames\n";
-  EXPECT_EQ(view({"--camera", "nowhere", "--script", "script.txt"}).status, 2);
-  std::ofstream(folder_ / "tiny.json") << "{";
-  EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
+  const std::string goesOn = "errors show\nwait 60 frames\n";
+  EXPECT_EQ(run(goesOn, "48x32", {"--camera", "nowhere"}).status, 2);
+  write("tiny.json", "{");
+  EXPECT_EQ(run(goesOn).status, 3);
 }
 
 TEST(ViewerAlone, SaysThatThereIsNoDisplay) {
@@ -390,11 +344,11 @@ TEST(ViewerAlone, SaysThatThereIsNoDisplay) {
 
 TEST(ViewerAlone, RefusesWhatItCannotShow) {
   const cli::TemporaryFolder folder;
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--crop", "0,0,1,1"}, {"--mode", "reference"}, {"--rate", "5"}}) {
-    std::vector<std::string> all{WHIT_VIEW_PROGRAM, "whitted"};
-    all.insert(all.end(), words.begin(), words.end());
-    EXPECT_EQ(runOn("", folder.path().string(), all).status, 2) << words[0];
+  for (const char* option : {"--crop=0,0,1,1", "--mode=reference", "--rate=5"}) {
+    const cli::Outcome outcome =
+        runOn("", folder.path().string(), {WHIT_VIEW_PROGRAM, "whitted", option});
+    EXPECT_EQ(outcome.status, 2) << option;
+    EXPECT_FALSE(hasText(outcome.err, "no display")) << option;
   }
 }
 

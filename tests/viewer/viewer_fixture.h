@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstring>
 #include <sstream>
 
 #include "io/image/image_file.h"
@@ -24,14 +24,27 @@ class Viewer : public testing::Test {
     cli::writeTinyScene(folder_);
   }
 
-  cli::Outcome view(std::vector<std::string> words) {
-    words.insert(words.begin(), {WHIT_VIEW_SCRIPT_PROGRAM, "tiny.json", "--quiet"});
-    // The words "--size scene" are left out, so that the window's size follows from the screen's.
-    const auto size = std::find(words.begin(), words.end(), "--size");
-    if (size == words.end()) words.insert(size, {"--size", "48x32"});
-    if (const auto scene = std::find(words.begin(), words.end(), "scene"); scene != words.end()) {
-      words.erase(scene - 1, scene + 1);
-    }
+  using Words = std::vector<std::string>;
+
+  void write(const std::string& file, const std::string& text) {
+    std::ofstream(folder_ / file) << text;
+  }
+  std::string read(const std::string& file) { return cli::readFile(folder_ / file); }
+  bool exists(const std::string& file) { return std::filesystem::exists(folder_ / file); }
+  // Writes a scene that is the tiny one but for one text in it.
+  void writeChanged(const std::string& file, const std::string& text, const std::string& other) {
+    std::string scene = read("tiny.json");
+    write(file, scene.replace(scene.find(text), text.size(), other));
+  }
+
+  // Runs a script in a window of this size; without one it follows from the screen's.
+  cli::Outcome run(const std::string& script, const char* size = "48x32",
+                   const Words& options = {}) {
+    write("script.txt", script);
+    Words words{WHIT_VIEW_SCRIPT_PROGRAM, "--quiet", "--script", "script.txt"};
+    if (*size != 0) words.insert(words.end(), {"--size", size});
+    words.insert(words.end(), scene_.begin(), scene_.end());
+    words.insert(words.end(), options.begin(), options.end());
 
     cli::Outcome outcome;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -41,13 +54,23 @@ class Viewer : public testing::Test {
     }
     return outcome;
   }
-  cli::Outcome play(const std::string& script, std::vector<std::string> words = {}) {
-    std::ofstream(folder_ / "script.txt") << script;
-    words.insert(words.end(), {"--script", "script.txt"});
-    const cli::Outcome outcome = view(words);
+  cli::Outcome play(const std::string& script, const char* size = "48x32",
+                    const Words& options = {}) {
+    const cli::Outcome outcome = run(script, size, options);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome;
   }
+  // Plays a script that prints so many commands, and returns them.
+  Words commandsOf(std::size_t count, const std::string& script, const char* size = "48x32",
+                   const Words& options = {}) {
+    std::istringstream out(play(script, size, options).out);
+    Words lines;
+    for (std::string line; std::getline(out, line);) lines.push_back(line);
+    EXPECT_EQ(lines.size(), count) << out.str();
+    lines.resize(count);
+    return lines;
+  }
+
   // Runs a command that the viewer has printed, as a shell would.
   void render(const std::string& command, const std::string& file) {
     paste(command + " --quiet -o " + file);
@@ -58,6 +81,12 @@ class Viewer : public testing::Test {
     const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
     ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
   }
+  // Renders with the printed command, which must give the picture that was shown.
+  void expectThatItShows(const std::string& picture, const std::string& command) {
+    render(command, "again.png");
+    expectSameCodes(picture, "again.png");
+  }
+
   RawImage codes(const std::string& file) {
     Warnings warnings;
     return readRawImage(folder_ / file, ImageLimits(), warnings);
@@ -68,16 +97,33 @@ class Viewer : public testing::Test {
     ASSERT_EQ(x.height, y.height);
     EXPECT_EQ(x.codes, y.codes);
   }
+  void expectOtherCodes(const std::string& a, const std::string& b) {
+    EXPECT_NE(codes(a).codes, codes(b).codes) << a << " and " << b;
+  }
 
   VirtualDisplay display_;
   cli::TemporaryFolder folder_;
+  Words scene_{"tiny.json"};  // what the viewer is started with
 };
 
-inline std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
+// Writes the image of a sky whose pixels all differ, and one of which is bright.
+inline void writeSky(const std::string& file) {
+  Image sky(4, 2);
+  for (std::size_t i = 0; i < sky.pixels.size(); ++i) {
+    sky.pixels[i] = {0.2f * static_cast<float>(i), 1, i == 1 ? 5.0f : 0.5f};
+  }
+  writeExr(file, sky, {});
+}
+
+// Returns whether the bytes of a rectangle of both pictures are equal.
+inline bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1) {
+  const auto channels = static_cast<std::size_t>(a.channels);
+  for (int y = y0; y < y1; ++y) {
+    const std::size_t from = static_cast<std::size_t>(y * a.width + x0) * channels;
+    const std::size_t bytes = static_cast<std::size_t>(x1 - x0) * channels;
+    if (std::memcmp(&a.codes[from], &b.codes[from], bytes) != 0) return false;
+  }
+  return true;
 }
 
 }  // namespace whit::view

@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -52,32 +51,22 @@ class VirtualDisplay {
   std::string name_;
 };
 
-// Runs a program in `folder` with DISPLAY set, or unset when `display` is empty. The program is
-// ended after three minutes, with status -14.
+// Runs a program, words[0], in `folder` with DISPLAY set, or unset when `display` is empty. The
+// program is ended after three minutes, with status -14.
 inline cli::Outcome runOn(const std::string& display, const std::string& folder,
-                          std::vector<std::string> words) {
-  const cli::TemporaryFolder output;
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
-  const std::string out = output / "stdout", err = output / "stderr";
-  const pid_t child = fork();
-  if (child == 0) {
+                          const std::vector<std::string>& words) {
+  const auto prepare = [&] {
     alarm(180);
-    dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
-    dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
     unsetenv("WAYLAND_DISPLAY");
     unsetenv("DISPLAY");
     if (!display.empty()) setenv("DISPLAY", display.c_str(), 1);
     setenv("XDG_CONFIG_HOME", folder.c_str(), 1);  // not the user's settings
     if (chdir(folder.c_str()) != 0) _exit(126);
-    execv(argv[0], argv.data());
-    _exit(127);
-  }
-
-  const int status = cli::waitFor(child);
-  return {status, cli::readFile(out), cli::readFile(err)};
+  };
+  const cli::TemporaryFolder output;
+  const int status = cli::waitFor(
+      cli::startWhit({words.begin() + 1, words.end()}, output, prepare, words[0].c_str()));
+  return {status, cli::readFile(output / "stdout"), cli::readFile(output / "stderr")};
 }
 
 }  // namespace whit::view

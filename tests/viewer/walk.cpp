@@ -74,30 +74,25 @@ class Walker {
 
 // Enlarges a picture as the viewer's windows do, which blend coarse pixels.
 DisplayImage enlarged(const DisplayImage& image, const ImageSize& size) {
-  struct Blend {
-    int first, second;
-    double weight;  // weight of the second pixel
-  };
-  const auto blendOf = [](int i, int from, int to) {
+  // Blends the values of the two of `from` pixels between which the center of a pixel i of `to`
+  // lies.
+  const auto blended = [](int i, int from, int to, const auto& valueOf) {
     const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
     const int first = static_cast<int>(at);
-    return Blend{first, std::min(first + 1, from - 1), at - first};
+    return std::lerp(valueOf(first), valueOf(std::min(first + 1, from - 1)), at - first);
   };
 
   DisplayImage large{size.width, size.height, {}};
   for (int row = 0; row < size.height; ++row) {
-    const Blend y = blendOf(row, image.height, size.height);
     for (int column = 0; column < size.width; ++column) {
-      const Blend x = blendOf(column, image.width, size.width);
       for (int c = 0; c < 4; ++c) {
-        const auto code = [&](int i, int j) {
-          return static_cast<double>(
-              image.rgba[static_cast<std::size_t>(4 * (j * image.width + i) + c)]);
-        };
-        const double above = std::lerp(code(x.first, y.first), code(x.second, y.first), x.weight);
-        const double below = std::lerp(code(x.first, y.second), code(x.second, y.second), x.weight);
-        large.rgba.push_back(
-            static_cast<std::uint8_t>(std::lround(std::lerp(above, below, y.weight))));
+        const double code = blended(row, image.height, size.height, [&](int y) {
+          return blended(column, image.width, size.width, [&](int x) {
+            const int at = 4 * (y * image.width + x) + c;
+            return static_cast<double>(image.rgba[static_cast<std::size_t>(at)]);
+          });
+        });
+        large.rgba.push_back(static_cast<std::uint8_t>(std::lround(code)));
       }
     }
   }
