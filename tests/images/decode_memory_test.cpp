@@ -111,7 +111,8 @@ TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
 // through its coefficients, which take 2 bytes each.
 TEST_F(DecodeMemory, AProgressiveJpegHoldsItsCoefficients) {
   Bytes file = jpegGray200();
-  const auto frame = std::ranges::search(file, Bytes{0xff, 0xc0}).begin();
+  const Bytes marker{0xff, 0xc0};
+  const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end());
   frame[1] = 0xc2;
   for (const int at : {5, 7}) frame[at] = 0x10;  // the sides become 0x1008, which is 4104 pixels
 
