@@ -1,5 +1,4 @@
-// Reflected impulses: directions, weights, depth and cutoff (hard cases H10, H32, H52, H62, H64,
-// H79).
+// Reflected impulses: directions, weights, depth and cutoff (hard cases H32, H33, H62, H64).
 #include "reference/add_impulses.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Refracted impulses through slabs and stacks of slabs (hard cases H10, H38, H42, H44, H45).
+// Refracted impulses, and surfaces that other dielectrics hide.
 #include <gtest/gtest.h>
 
 #include <cmath>

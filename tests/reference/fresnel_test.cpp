@@ -1,4 +1,4 @@
-// Fresnel's and Snell's laws (hard cases H37-H41).
+// Fresnel's and Snell's laws (hard cases H37 to H40).
 #include "reference/fresnel.h"
 
 #include <gtest/gtest.h>

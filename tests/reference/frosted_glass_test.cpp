@@ -1,6 +1,6 @@
 // Frosted glass: its samples against integrals of Walter's lobes (Walter et al. 2007, "Microfacet
-// models for refraction through rough surfaces"), energy, reciprocity, the limits of smooth glass,
-// and how many rays there are.
+// models for refraction through rough surfaces"), energy, the limits of smooth glass, and how many
+// rays there are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

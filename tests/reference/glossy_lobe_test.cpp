@@ -1,4 +1,4 @@
-// The glossy lobe: closed forms, reciprocity, energy.
+// The glossy lobe: closed forms and reciprocity.
 #include <gtest/gtest.h>
 
 #include "reference/lobe.h"

@@ -1,5 +1,4 @@
-// Level surfels with a glossy lobe, random points for its samples, and formulas and integrals to
-// compare it with.
+// Level surfels with a glossy lobe, random points for its samples, and formulas to compare it with.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Nested dielectrics and absorption (hard cases H45, H46, H50).
+// Stacks of media, crossings of surfaces, and absorption (hard cases H45, H50).
 #include "reference/media.h"
 
 #include <gtest/gtest.h>
