@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <functional>
+
 #include "image_samples.h"
 
 namespace whit {
@@ -98,12 +100,11 @@ TEST_F(AtomicFileTest, DevicesAreWrittenStraight) {
 }
 
 TEST_F(AtomicFileTest, FoldersThatCannotBeWrittenAreErrors) {
-  EXPECT_EQ(statusOf([&] { AtomicFile(path("absent/a.txt")); }), ExitStatus::io);
-  EXPECT_EQ(statusOf([&] { AtomicFile{folder_}; }), ExitStatus::io);
-  EXPECT_EQ(statusOf([&] { AtomicFile(""); }), ExitStatus::io);
-
-  // Nobody may create files there, not even root.
-  EXPECT_EQ(statusOf([&] { AtomicFile("/proc/a.txt"); }), ExitStatus::io);
+  // Nobody may create files in /proc, not even root.
+  for (const std::string& file :
+       {path("absent/a.txt"), folder_, std::string(), std::string("/proc/a.txt")}) {
+    EXPECT_EQ(statusOf([&] { AtomicFile{file}; }), ExitStatus::io) << file;
+  }
   EXPECT_EQ(statusOf([&] { writePng("/proc/a.png", {1, 1, {1, 2, 3, 255}}, {}); }), ExitStatus::io);
   EXPECT_EQ(statusOf([&] { writeExr("/proc/a.exr", Image(1, 1), {}); }), ExitStatus::io);
 }
@@ -114,29 +115,27 @@ TEST_F(AtomicFileTest, AFullDiskLeavesNothingBehind) {
   const Image image(40, 40);
   const DisplayImage display{40, 40, Bytes(6400, 90)};
 
-  writeExr(path("a.exr"), image, {});
-  writePng(path("a.png"), display, {});
-  // The sizes of whole files bound the limits that are tried.
-  const std::uintmax_t exr = fs::file_size(path("a.exr")), png = fs::file_size(path("a.png"));
-  fs::remove(path("a.exr"));
-  fs::remove(path("a.png"));
-
-  const auto statusAt = [&](rlim_t bytes, auto&& write) {
+  const std::function<void()> writes[] = {[&] { writeExr(path("a"), image, {}); },
+                                          [&] { writePng(path("a"), display, {}); },
+                                          [&] { writeTextFile(path("a"), "more than ten"); }};
+  const auto statusAt = [](rlim_t bytes, const std::function<void()>& write) {
     const FullDisk full(bytes);
     return statusOf(write);
   };
 
-  for (rlim_t bytes = 0; bytes < exr; bytes += 16)
-    EXPECT_EQ(statusAt(bytes, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::io)
-        << bytes;
-  for (rlim_t bytes = 0; bytes < png; bytes += 16)
-    EXPECT_EQ(statusAt(bytes, [&] { writePng(path("a.png"), display, {}); }), ExitStatus::io)
-        << bytes;
+  for (const auto& write : writes) {
+    write();
+    const std::uintmax_t whole = fs::file_size(path("a"));
+    fs::remove(path("a"));
+    for (rlim_t bytes = 0; bytes < whole; bytes += whole / 64 + 1) {
+      EXPECT_EQ(statusAt(bytes, write), ExitStatus::io) << bytes;
+    }
 
-  EXPECT_EQ(statusAt(10, [&] { writeTextFile(path("a.txt"), "more than ten"); }), ExitStatus::io);
-  EXPECT_EQ(filesInFolder(), 0u);
-  // With a limit of exactly its size the file is written.
-  EXPECT_EQ(statusAt(exr, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::done);
+    EXPECT_EQ(filesInFolder(), 0u);
+    // With a limit of exactly its size the file is written.
+    EXPECT_EQ(statusAt(whole, write), ExitStatus::done);
+    fs::remove(path("a"));
+  }
 }
 
 }  // namespace

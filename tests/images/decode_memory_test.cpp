@@ -1,7 +1,7 @@
 // Memory that decoding takes counts in the budget of the scene that the images are for.
 #include <thread>
 
-#include "image_samples.h"
+#include "every_format.h"
 #include "io/texture_loader.h"
 
 namespace whit {
@@ -71,32 +71,14 @@ TEST(DecodeQueue, WhatLackedMemoryIsRunAgainAlone) {
   EXPECT_EQ(runs, 2);
 }
 
-class DecodeMemory : public ImageTest {
- protected:
-  struct Sample {
-    std::string name;
-    Bytes bytes;
-    std::uint64_t decoded;
-  };
-  std::vector<Sample> samples() {
-    const Bytes rgb(300, 7);
-    Image image(10, 10);
-    writeExr(path("a.exr"), image, {});
-    return {{"a.png", png(10, 10, 8, 2, Bytes(310, 0)), 300},
-            {"a.bmp", bmp(10, 10, rgb), 300},
-            {"a.tga", tga(10, 10, rgb), 300},
-            {"a.jpg", jpegGray200(), 64},
-            {"a.hdr", hdr(10, 10, Bytes(400, 128)), 1200},
-            {"a.exr", load(path("a.exr")), 1200}};
-  }
-};
+using DecodeMemory = EveryFormat;
 
 TEST_F(DecodeMemory, TheImageIsHeldForAsLongAsItLives) {
-  for (const Sample& sample : samples()) {
+  for (const FormatSample& sample : samples()) {
     MemoryBudget budget(kPlenty);
     limits_.budget = &budget;
     {
-      RawImage raw = readRawImage(save(sample.name, sample.bytes), limits_, warnings_);
+      RawImage raw = read(sample.name, sample.bytes);
       EXPECT_EQ(budget.left(), kPlenty - sample.decoded) << sample.name;
       const RawImage moved = std::move(raw);
       EXPECT_EQ(budget.left(), kPlenty - sample.decoded) << sample.name;
@@ -107,13 +89,13 @@ TEST_F(DecodeMemory, TheImageIsHeldForAsLongAsItLives) {
 
 // Decoding fails with a limit until the budget is large enough, and nothing stays held afterwards.
 TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
-  for (const Sample& sample : samples()) {
+  for (const FormatSample& sample : samples()) {
     const std::string file = save(sample.name, sample.bytes);
     std::uint64_t enough = 0;
     for (std::uint64_t bytes = 16; enough == 0 && bytes < kPlenty; bytes += bytes / 4) {
       MemoryBudget budget(bytes);
       limits_.budget = &budget;
-      const ExitStatus status = statusOf([&] { readRawImage(file, limits_, warnings_); });
+      const ExitStatus status = readStatus(file);
       if (status == ExitStatus::done) enough = bytes;
       EXPECT_TRUE(status == ExitStatus::done || status == ExitStatus::limit) << sample.name;
       EXPECT_EQ(budget.left(), bytes) << sample.name;
@@ -129,20 +111,18 @@ TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
 // through its coefficients, which take 2 bytes each.
 TEST_F(DecodeMemory, AProgressiveJpegHoldsItsCoefficients) {
   Bytes file = jpegGray200();
-  const std::string marker = "\xff\xc0";
-  const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end(),
-                                 [](std::uint8_t a, char b) { return a == std::uint8_t(b); });
+  const Bytes marker{0xff, 0xc0};
+  const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end());
   frame[1] = 0xc2;
   for (const int at : {5, 7}) frame[at] = 0x10;  // the sides become 0x1008, which is 4104 pixels
 
-  const std::string path = save("a.jpg", file);
   constexpr std::uint64_t kPixels = 4104 * 4104;
   MemoryBudget little(kPixels * 5 / 2), enough(kPixels * 4);
 
   limits_.budget = &little;
-  EXPECT_EQ(statusOf([&] { readRawImage(path, limits_, warnings_); }), ExitStatus::limit);
+  EXPECT_EQ(readStatus("a.jpg", file), ExitStatus::limit);
   limits_.budget = &enough;
-  EXPECT_NE(statusOf([&] { readRawImage(path, limits_, warnings_); }), ExitStatus::limit);
+  EXPECT_NE(readStatus("a.jpg", file), ExitStatus::limit);
 }
 
 }  // namespace

@@ -9,19 +9,12 @@
 namespace whit {
 namespace {
 
-using Color = std::array<int, 3>;
-
-Color at(const DisplayImage& image, int x, int y) {
-  const std::uint8_t* p =
-      image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(x));
+// Returns the linear color of a pixel, which is opaque.
+Rgb at(const DisplayImage& image, int x, int y) {
+  const std::uint8_t* p = &image.rgba[4 * cellAt(x, y, image.width)];
   EXPECT_EQ(p[3], 255);
-  return {p[0], p[1], p[2]};
-}
-
-double luminance(const Color& c) {
-  return 0.2126 * srgbToLinear(c[0] / 255.0) + 0.7152 * srgbToLinear(c[1] / 255.0) +
-         0.0722 * srgbToLinear(c[2] / 255.0);
+  const auto& linear = linearOfCodes();
+  return {linear[p[0]], linear[p[1]], linear[p[2]]};
 }
 
 // Pixel x of the first row differs by x codes.
@@ -36,16 +29,16 @@ TEST(HeatMap, GrowsLighterUpToSixteenCodes) {
   const auto [a, b] = ramp(100);
   const DisplayImage map = heatMap(a, b);
   EXPECT_EQ(map.width, 100);
-  EXPECT_EQ(at(map, 0, 0), (Color{0, 0, 0}));
+  EXPECT_EQ(at(map, 0, 0), Rgb());
   for (int codes = 1; codes <= 16; ++codes)
     EXPECT_GT(luminance(at(map, codes, 0)), luminance(at(map, codes - 1, 0))) << codes;
-  for (int codes = 17; codes < 100; ++codes) EXPECT_EQ(at(map, codes, 0), at(map, 16, 0));
-  for (int x = 0; x < 100; ++x) EXPECT_EQ(at(map, x, 1), (Color{0, 0, 0}));
+  for (int x = 17; x < 100; ++x) EXPECT_EQ(at(map, x, 0), at(map, 16, 0));
+  for (int x = 0; x < 100; ++x) EXPECT_EQ(at(map, x, 1), Rgb());
 }
 
 TEST(HeatMap, TakesTheWindowOnly) {
-  const DisplayImage map =
-      heatMap(Image(500, 500, {10, 10, 90, 13}), Image(500, 500, {10, 10, 90, 13}));
+  const Image window(500, 500, {10, 10, 90, 13});
+  const DisplayImage map = heatMap(window, window);
   EXPECT_EQ(map.width, 80);
   EXPECT_EQ(map.height, 3);
 }

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,18 @@ ExitStatus statusOf(Run&& run) {
   return ExitStatus::done;
 }
 
+// The message of the Error of this status that `run` throws; empty when it throws none.
+template <typename Run>
+std::string refusalOf(ExitStatus status, Run&& run) {
+  try {
+    run();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status(), status) << e.what();
+    return e.what();
+  }
+  return {};
+}
+
 // A new folder for each test, removed afterwards.
 class ImageTest : public testing::Test {
  protected:
@@ -43,16 +56,19 @@ class ImageTest : public testing::Test {
               static_cast<std::streamsize>(bytes.size()));
     return path(name);
   }
+  RawImage read(const std::string& file) { return readRawImage(file, limits_, warnings_); }
+  RawImage read(const std::string& name, const Bytes& bytes) { return read(save(name, bytes)); }
+  ExitStatus readStatus(const std::string& file) {
+    return statusOf([&] { read(file); });
+  }
+  ExitStatus readStatus(const std::string& name, const Bytes& bytes) {
+    return readStatus(save(name, bytes));
+  }
   // Returns the message of the error that such a file causes, without the file's name.
   std::string errorOf(const std::string& name, const Bytes& bytes) {
     const std::string file = save(name, bytes);
-    try {
-      readRawImage(file, limits_, warnings_);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), ExitStatus::badScene) << error.what();
-      return std::string(error.what()).substr(file.size());
-    }
-    return "no error";
+    const std::string message = refusalOf(ExitStatus::badScene, [&] { read(file); });
+    return message.substr(std::min(file.size(), message.size()));
   }
   static Bytes load(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -72,56 +88,93 @@ class ImageTest : public testing::Test {
 inline void append(Bytes& to, const Bytes& bytes) {
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
-inline void append16(Bytes& to, int v) {
-  append(to, {static_cast<std::uint8_t>(v & 255), static_cast<std::uint8_t>(v >> 8 & 255)});
-}
+inline std::uint8_t byteOf(int v) { return static_cast<std::uint8_t>(v & 255); }
+inline void append16(Bytes& to, int v) { append(to, {byteOf(v), byteOf(v >> 8)}); }
 inline void append32(Bytes& to, int v) {
-  append16(to, v & 0xffff);
-  append16(to, v >> 16 & 0xffff);
+  append16(to, v);
+  append16(to, v >> 16);
+}
+// The same with the highest byte first.
+inline void appendBig32(Bytes& to, int v) {
+  for (const int shift : {24, 16, 8, 0}) to.push_back(byteOf(v >> shift));
+}
+// The bytes from one place up to another one, by default up to the end.
+inline Bytes slice(const Bytes& bytes, std::size_t from, std::size_t to = std::string::npos) {
+  const auto whole = std::span(bytes).first(std::min(to, bytes.size()));
+  return Bytes(whole.begin() + static_cast<std::ptrdiff_t>(from), whole.end());
 }
 
-// Uncompressed, from the top, blue first in the file. `rgb` is 3 codes a pixel.
+// The blue of each pixel first, as TGA and BMP have it. `rgb` is 3 codes a pixel.
+inline Bytes blueFirst(Bytes rgb) {
+  for (std::size_t i = 0; i < rgb.size(); i += 3) std::swap(rgb[i], rgb[i + 2]);
+  return rgb;
+}
+
+struct TgaForm {
+  int type = 2, bits = 24, descriptor = 0x20;
+  int entries = 0, entryBits = 0;
+  int width = 2, height = 2;
+};
+inline Bytes tgaOf(const TgaForm& form, const Bytes& data, const Bytes& id = {}) {
+  Bytes file = {byteOf(static_cast<int>(id.size())), form.entries > 0, byteOf(form.type)};
+  append16(file, 0);
+  append16(file, form.entries);
+  file.push_back(byteOf(form.entryBits));
+  append32(file, 0);
+  append16(file, form.width);
+  append16(file, form.height);
+  append(file, {byteOf(form.bits), byteOf(form.descriptor)});
+  append(file, id);
+  append(file, data);
+  return file;
+}
+
+// Uncompressed, from the top.
 inline Bytes tga(int width, int height, const Bytes& rgb) {
-  Bytes file = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  append16(file, width);
-  append16(file, height);
-  append(file, {24, 0x20});
-  for (std::size_t i = 0; i < rgb.size(); i += 3) append(file, {rgb[i + 2], rgb[i + 1], rgb[i]});
+  return tgaOf({.width = width, .height = height}, blueFirst(rgb));
+}
+
+struct BmpForm {
+  int width = 3, height = 2, bits = 8, compression = 0;
+};
+// With the header of 40 bytes; `behind` is a palette or masks.
+inline Bytes bmpOf(const BmpForm& form, const Bytes& behind, const Bytes& data) {
+  const int offset = 54 + static_cast<int>(behind.size());
+  Bytes file = {'B', 'M'};
+  for (const int word :
+       {offset + static_cast<int>(data.size()), 0, offset, 40, form.width, form.height}) {
+    append32(file, word);
+  }
+  append16(file, 1);
+  append16(file, form.bits);
+  for (const int word : {form.compression, 0, 0, 0, 0, 0}) append32(file, word);
+  append(file, behind);
+  append(file, data);
   return file;
 }
 
 // 24 bits, bottom row first, rows padded to 4 bytes.
 inline Bytes bmp(int width, int height, const Bytes& rgb) {
-  const int stride = (3 * width + 3) / 4 * 4;
-  Bytes file = {'B', 'M'};
-  append32(file, 54 + stride * height);
-  append32(file, 0);
-  append32(file, 54);
-  append32(file, 40);
-  append32(file, width);
-  append32(file, height);
-  append16(file, 1);
-  append16(file, 24);
-  for (int i = 0; i < 6; ++i) append32(file, 0);
-
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
-      append(file, {rgb[i + 2], rgb[i + 1], rgb[i]});
-    }
-    for (int pad = 3 * width; pad < stride; ++pad) file.push_back(0);
+  Bytes data;
+  const std::size_t row = static_cast<std::size_t>(3 * width);
+  for (std::size_t end = rgb.size(); end > 0; end -= row) {
+    append(data, blueFirst(slice(rgb, end - row, end)));
+    data.resize((data.size() + 3) / 4 * 4);
   }
+  return bmpOf({.width = width, .height = height, .bits = 24}, {}, data);
+}
 
+inline Bytes hdrOf(const std::string& head, const Bytes& rgbe) {
+  Bytes file(head.begin(), head.end());
+  append(file, rgbe);
   return file;
 }
 
 // Radiance RGBE, flat. `rgbe` is 4 bytes a pixel.
 inline Bytes hdr(int width, int height, const Bytes& rgbe) {
-  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) +
-                           " +X " + std::to_string(width) + "\n";
-  Bytes file(head.begin(), head.end());
-  append(file, rgbe);
-  return file;
+  return hdrOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+                   std::to_string(width) + "\n",
+               rgbe);
 }
 
 // Radiance RGBE with run lengths: each of the four planes of a row is one run. `width` from 8 to
@@ -129,9 +182,8 @@ inline Bytes hdr(int width, int height, const Bytes& rgbe) {
 inline Bytes hdrRuns(int width, int height, const std::array<std::uint8_t, 4>& rgbe) {
   Bytes file = hdr(width, height, {});
   for (int y = 0; y < height; ++y) {
-    append(file, {2, 2, 0, static_cast<std::uint8_t>(width)});
-    for (const std::uint8_t value : rgbe)
-      append(file, {static_cast<std::uint8_t>(128 + width), value});
+    append(file, {2, 2, 0, byteOf(width)});
+    for (const std::uint8_t value : rgbe) append(file, {byteOf(128 + width), value});
   }
   return file;
 }
@@ -151,36 +203,31 @@ inline Bytes jpegGray200() {
 }
 
 inline void appendPngChunk(Bytes& file, const char* type, const Bytes& data) {
-  const auto big = [](std::uint32_t v) {
-    return Bytes{static_cast<std::uint8_t>(v >> 24), static_cast<std::uint8_t>(v >> 16),
-                 static_cast<std::uint8_t>(v >> 8), static_cast<std::uint8_t>(v)};
-  };
-  append(file, big(static_cast<std::uint32_t>(data.size())));
-
+  appendBig32(file, static_cast<int>(data.size()));
   Bytes body(type, type + 4);
   append(body, data);
   append(file, body);
-  append(
-      file,
-      big(static_cast<std::uint32_t>(crc32(0, body.data(), static_cast<unsigned>(body.size())))));
+  appendBig32(file, static_cast<int>(crc32(0, body.data(), static_cast<unsigned>(body.size()))));
+}
+
+// The bytes as PNG deflates them.
+inline Bytes packed(const Bytes& bytes) {
+  uLongf size = compressBound(bytes.size());
+  Bytes result(size);
+  compress(result.data(), &size, bytes.data(), bytes.size());
+  result.resize(size);
+  return result;
 }
 
 // `rows` is what PNG deflates: a filter byte (0) before each row. Color types: 0 gray, 2 RGB,
-// 4 gray and alpha, 6 RGBA.
+// 3 palette, 4 gray and alpha, 6 RGBA.
 inline Bytes png(int width, int height, int bits, int colorType, const Bytes& rows) {
-  Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  const auto byte = [](int v, int shift) { return static_cast<std::uint8_t>(v >> shift & 255); };
-  appendPngChunk(file, "IHDR",
-                 {byte(width, 24), byte(width, 16), byte(width, 8), byte(width, 0),
-                  byte(height, 24), byte(height, 16), byte(height, 8), byte(height, 0),
-                  static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(colorType), 0, 0, 0});
-
-  uLongf size = compressBound(static_cast<uLong>(rows.size()));
-  Bytes packed(size);
-  compress(packed.data(), &size, rows.data(), static_cast<uLong>(rows.size()));
-  packed.resize(size);
-
-  appendPngChunk(file, "IDAT", packed);
+  Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, header;
+  appendBig32(header, width);
+  appendBig32(header, height);
+  append(header, {byteOf(bits), byteOf(colorType), 0, 0, 0});
+  appendPngChunk(file, "IHDR", header);
+  appendPngChunk(file, "IDAT", packed(rows));
   appendPngChunk(file, "IEND", {});
   return file;
 }

@@ -5,13 +5,12 @@
 namespace whit {
 namespace {
 
-class PngTest : public ImageTest {};
+using PngTest = ImageTest;
 
 DisplayImage gradient(int width, int height) {
   DisplayImage image{width, height, {}};
   for (int i = 0; i < width * height; ++i)
-    append(image.rgba, {static_cast<std::uint8_t>(i * 7), static_cast<std::uint8_t>(i * 11),
-                        static_cast<std::uint8_t>(255 - i), 255});
+    append(image.rgba, {byteOf(i * 7), byteOf(i * 11), byteOf(255 - i), 255});
   return image;
 }
 
@@ -21,9 +20,8 @@ std::vector<std::string> chunks(const Bytes& file, const std::string& type) {
   for (std::size_t at = 8; at + 12 <= file.size();) {
     const std::size_t size = std::size_t{file[at]} << 24 | std::size_t{file[at + 1]} << 16 |
                              std::size_t{file[at + 2]} << 8 | file[at + 3];
-    const auto data = file.begin() + static_cast<std::ptrdiff_t>(at + 8);
-    if (type == std::string(data - 4, data))
-      found.emplace_back(data, data + static_cast<std::ptrdiff_t>(size));
+    const std::string chunk(file.begin() + static_cast<std::ptrdiff_t>(at + 4), file.end());
+    if (chunk.starts_with(type)) found.push_back(chunk.substr(4, size));
     at += 12 + size;
   }
   return found;
@@ -38,7 +36,7 @@ TEST_F(PngTest, TextComesBackFromWholeFilesOnly) {
   for (const std::size_t size :
        {std::size_t{0}, std::size_t{20}, whole.size() / 2, whole.size() - 9}) {
     // A file that is cut short is refused even where all its text is there.
-    save("cut.png", Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    save("cut.png", slice(whole, 0, size));
     EXPECT_EQ(statusOf([&] { readPngMetadata(path("cut.png")); }), ExitStatus::badScene) << size;
   }
 
@@ -53,11 +51,11 @@ TEST_F(PngTest, PixelsComeBack) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {16, 16}}) {
     const DisplayImage image = gradient(width, height);
     writePng(path("a.png"), image, {});
-    const RawImage back = readRawImage(path("a.png"), limits_, warnings_);
+    const RawImage back = read(path("a.png"));
     EXPECT_EQ(back.width, width);
     EXPECT_EQ(back.height, height);
     ASSERT_EQ(back.channels, 3);  // opaque alpha is not stored
-    for (std::size_t i = 0; i < back.codes.size(); ++i)
+    for (const std::size_t i : indices(back.codes))
       EXPECT_EQ(back.codes[i], image.rgba[i / 3 * 4 + i % 3]);
   }
 }
@@ -66,8 +64,7 @@ TEST_F(PngTest, PixelsComeBack) {
 TEST_F(PngTest, All256CodesSurviveTheWholeWay) {
   DisplayImage image{256, 1, {}};
   for (int code = 0; code < 256; ++code) {
-    const auto c = static_cast<std::uint8_t>(code);
-    append(image.rgba, {c, static_cast<std::uint8_t>(255 - code), c, 255});
+    append(image.rgba, {byteOf(code), byteOf(255 - code), byteOf(code), 255});
   }
   writePng(path("a.png"), image, {});
   const Image linear = readImage(path("a.png"), limits_);

@@ -6,14 +6,12 @@ namespace {
 
 class ReadHdr : public ImageTest {
  protected:
-  static Bytes hdrOf(const std::string& head, const Bytes& rgbe) {
-    Bytes file(head.begin(), head.end());
-    append(file, rgbe);
-    return file;
+  std::string refusalOf(const std::string& head, const Bytes& rgbe = {}) {
+    return errorOf("a.hdr", hdrOf(head, rgbe));
   }
   // Returns the reds of an image of gray pixels.
   std::vector<float> reds(const Bytes& file) {
-    const RawImage image = readRawImage(save("a.hdr", file), limits_, warnings_);
+    const RawImage image = read("a.hdr", file);
     std::vector<float> result;
     for (std::size_t i = 0; i < image.values.size(); i += 3) result.push_back(image.values[i]);
     return result;
@@ -31,7 +29,7 @@ TEST_F(ReadHdr, RunsOfOlderFiles) {
   EXPECT_EQ(reds(hdrOf("#?RGBE\n\n-Y 1 +X 264\n",
                        {16, 16, 16, 136, 1, 1, 1, 2, 32, 32, 32, 136, 1, 1, 1, 4, 1, 1, 1, 1})),
             expected);
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n-Y 1 +X 3\n", {16, 16, 16, 136, 1, 1, 1, 3})),
+  EXPECT_EQ(refusalOf("#?RGBE\n\n-Y 1 +X 3\n", {16, 16, 16, 136, 1, 1, 1, 3}),
             ": byte 26: expected a run up to the row's end, found a longer one");
 }
 
@@ -39,13 +37,13 @@ TEST_F(ReadHdr, RunsOfOlderFiles) {
 TEST_F(ReadHdr, ExposuresAndColorCorrectionsAreUndone) {
   const auto rgb = [&](const std::string& lines) {
     const Bytes file = hdrOf("#?RADIANCE\n" + lines + "\n-Y 1 +X 1\n", {16, 32, 64, 136});
-    return linearPixel(readRawImage(save("a.hdr", file), limits_, warnings_), 0);
+    return linearPixel(read("a.hdr", file), 0);
   };
   EXPECT_EQ(rgb("EXPOSURE=4.0\nEXPOSURE= 2\n\tEXPOSURE=7\n"), Rgb(2, 4, 8));
   EXPECT_EQ(rgb("COLORCORR=1 2 4\nEXPOSURE=0.5\n"), Rgb(32, 32, 32));
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nEXPOSURE=0\n\n", {})),
+  EXPECT_EQ(refusalOf("#?RGBE\nEXPOSURE=0\n\n"),
             ": byte 18: expected a factor above 0 for each channel, found EXPOSURE=0");
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nCOLORCORR=1 2\n\n", {})),
+  EXPECT_EQ(refusalOf("#?RGBE\nCOLORCORR=1 2\n\n"),
             ": byte 21: expected a factor above 0 for each channel, found COLORCORR=1 2");
 }
 
@@ -64,15 +62,15 @@ TEST_F(ReadHdr, OtherPrimariesAreSaidToBeLeftOut) {
 }
 
 TEST_F(ReadHdr, DamageIsToldWithItsPlace) {
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nFORMAT=32-bit_rle_xyze\n\n", {})),
+  EXPECT_EQ(refusalOf("#?RGBE\nFORMAT=32-bit_rle_xyze\n\n"),
             ": byte 30: expected FORMAT=32-bit_rle_rgbe, found FORMAT=32-bit_rle_xyze");
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n+Y 1 +X 1\n", {})),
+  EXPECT_EQ(refusalOf("#?RGBE\n\n+Y 1 +X 1\n"),
             ": byte 18: expected a size such as \"-Y 300 +X 480\"");
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 9})),
+  EXPECT_EQ(refusalOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 9}),
             ": byte 22: expected a row of 8 pixels, found one of 9");
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 8, 137, 1})),
+  EXPECT_EQ(refusalOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 8, 137, 1}),
             ": byte 23: expected pixels up to the row's end, found more or none");
-  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 8, 136, 1})),
+  EXPECT_EQ(refusalOf("#?RGBE\n\n-Y 1 +X 8\n", {2, 2, 0, 8, 136, 1}),
             ": byte 24: the file is cut short");
 }
 

@@ -1,10 +1,10 @@
 #include "io/image/texture_from_image.h"
-#include "core/display.h"
 #include "image_samples.h"
 
 namespace whit {
 namespace {
 
+// Return images of one row.
 RawImage codes(int channels, const Bytes& values) {
   RawImage raw;
   raw.channels = channels;
@@ -15,10 +15,8 @@ RawImage codes(int channels, const Bytes& values) {
 }
 
 RawImage floats(int channels, const std::vector<float>& values) {
-  RawImage raw;
-  raw.channels = channels;
-  raw.width = static_cast<int>(values.size()) / channels;
-  raw.height = 1;
+  RawImage raw = codes(channels, Bytes(values.size()));
+  raw.codes = {};
   raw.linear = true;
   raw.values = values;
   return raw;
@@ -27,23 +25,21 @@ RawImage floats(int channels, const std::vector<float>& values) {
 // The table gives just what encoding each color by itself would.
 TEST(TextureFromImage, ColorCodesAreEncodedAsTheirLinearLight) {
   for (int code = 0; code < 256; ++code) {
-    const auto c = static_cast<std::uint8_t>(code);
-    const auto other = static_cast<std::uint8_t>(255 - code);
-    const Texture texture = makeTexture("t", codes(3, {c, other, 7}), TexelFormat::color);
-    const auto linear = [](int v) { return static_cast<float>(srgbToLinear(v / 255.0)); };
-    ASSERT_EQ(texture.texels.size(), 1u);
-    EXPECT_EQ(texture.texels[0], encodeColorTexel({linear(code), linear(other), linear(7)}));
+    const RawImage raw = codes(3, {byteOf(code), byteOf(255 - code), 7});
+    EXPECT_EQ(makeTexture("t", raw, TexelFormat::color).texels,
+              std::vector{encodeColorTexel(linearPixel(raw, 0))});
   }
 }
 
 TEST(TextureFromImage, DataCodesAreKept) {
-  const auto texel = [](int channels, const Bytes& values) {
-    return makeTexture("t", codes(channels, values), TexelFormat::data).texels.at(0);
+  const auto texel = [](const Bytes& values) {
+    return makeTexture("t", codes(static_cast<int>(values.size()), values), TexelFormat::data)
+        .texels.at(0);
   };
-  EXPECT_EQ(texel(4, {1, 2, 3, 4}), 0x04030201u);
-  EXPECT_EQ(texel(3, {1, 2, 3}), 0xff030201u);
-  EXPECT_EQ(texel(2, {1, 2}), 0x02010101u);
-  EXPECT_EQ(texel(1, {9}), 0xff090909u);
+  EXPECT_EQ(texel({1, 2, 3, 4}), 0x04030201u);
+  EXPECT_EQ(texel({1, 2, 3}), 0xff030201u);
+  EXPECT_EQ(texel({1, 2}), 0x02010101u);
+  EXPECT_EQ(texel({9}), 0xff090909u);
 }
 
 TEST(TextureFromImage, LinearValuesAreEncoded) {

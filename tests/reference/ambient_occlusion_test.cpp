@@ -12,13 +12,12 @@
 namespace whit::reference {
 namespace {
 
-using test::SampleMean;
-using test::SceneBuilder;
+using namespace test;
 
-constexpr std::uint32_t kPaths = 1000;
+constexpr std::uint32_t kPaths = 1000, kSamples = 16;
 
 Settings occluded(int samples) {
-  Settings settings = test::uncut();
+  Settings settings = uncut();
   settings.options.ambientSamples = samples;
   return settings;
 }
@@ -26,25 +25,22 @@ Settings occluded(int samples) {
 // The floor y = 0 has albedo 1 and the ambient light is 1, so that its radiance is the share of
 // open directions.
 SceneBuilder floorInAmbientLight(float radius) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(1))));
+  SceneBuilder builder = withFloor(diffuseMaterial(1), 1000);
   builder.description.ambient = {Rgb(1), Rgb(1), 0, radius};
   return builder;
 }
 
 // Estimates the share of ambient light that reaches the floor's point at `x`.
-SampleMean openShareAt(const Scene& scene, double x, const Settings& settings = occluded(16)) {
+SampleMean openShareAt(const Scene& scene, double x) {
   const BruteForce bruteForce(scene);
-  const Tracer tracer(scene, bruteForce, settings);
-  SampleMean mean;
+  const Tracer tracer(scene, bruteForce, occluded(kSamples));
+  RayCounts counts;
+  const SampleMean mean = meanOf(kPaths, [&](auto path) {
+    return tracer.traceImpulse({{x, 1e-3, 0}, {0, -1, 0}}, 0, 1, 0, counts, {mixed(path), 0}).x;
+  });
 
-  for (std::uint32_t path = 0; path < kPaths; ++path) {
-    RayCounts counts;
-    mean.add(tracer.traceImpulse({{x, 1e-3, 0}, {0, -1, 0}}, 0, 1, 0, counts, {mixed(path), 0}).x);
-    EXPECT_EQ(counts[RayKind::occlusion], static_cast<unsigned>(settings.options.ambientSamples));
-    EXPECT_EQ(counts[RayKind::shadow], 0u);
-  }
-
+  EXPECT_EQ(counts[RayKind::occlusion], kPaths * kSamples);
+  EXPECT_EQ(counts[RayKind::shadow], 0u);
   return mean;
 }
 
@@ -53,7 +49,7 @@ SampleMean openShareAt(const Scene& scene, double x, const Settings& settings = 
 TEST(AmbientOcclusion, BesideAWallIsASegmentOfTheDisc) {
   constexpr double kRadius = 2;
   SceneBuilder builder = floorInAmbientLight(kRadius);
-  builder.add(test::quad({0, 0, -1000}, {0, 0, 1000}, {0, 1000, 1000}, {0, 1000, -1000}, 0));
+  builder.add(quad({0, 0, -1000}, {0, 0, 1000}, {0, 1000, 1000}, {0, 1000, -1000}, 0));
   const Scene scene = builder.build();
 
   for (const double x : {0.01, 0.5, 1.0, 1.7}) {
@@ -70,7 +66,7 @@ TEST(AmbientOcclusion, BesideAWallIsASegmentOfTheDisc) {
 // Rays reach the ceiling if they are near enough to the normal: cosine^2 > (height / radius)^2.
 TEST(AmbientOcclusion, BelowACeilingIsTheSquareOfTheRatio) {
   SceneBuilder builder = floorInAmbientLight(2);
-  builder.add(test::ceilingAt(1.2f, 1000, 0));
+  builder.add(ceilingAt(1.2f, 1000, 0));
   const SampleMean mean = openShareAt(builder.build(), 0);
   EXPECT_NEAR(mean.value(), 0.36, 3 * mean.error());
 }
@@ -79,32 +75,32 @@ TEST(AmbientOcclusion, BelowACeilingIsTheSquareOfTheRatio) {
 TEST(AmbientOcclusion, InsideABoxDependsOnItsSizeAlone) {
   for (const auto& [radius, wanted] : {std::pair{0.99f, 1.0}, std::pair{3.0f, 0.0}}) {
     SceneBuilder builder = floorInAmbientLight(radius);
-    builder.add(test::box({-1, -1, -1}, {1, 1, 1}, 0));
+    builder.add(box({-1, -1, -1}, {1, 1, 1}, 0));
     EXPECT_EQ(openShareAt(builder.build(), 0).value(), wanted) << radius;
   }
 }
 
 TEST(AmbientOcclusion, PassesWhatCastsNoShadow) {
   SceneBuilder builder = floorInAmbientLight(10);
-  Material clear = test::glassMaterial(1.5f);
+  Material clear = glassMaterial(1.5f);
   clear.castsShadow = false;
-  builder.add(test::ceilingAt(1, 1000, builder.add(clear)));
+  builder.add(ceilingAt(1, 1000, builder.add(clear)));
   EXPECT_EQ(openShareAt(builder.build(), 0).value(), 1);
 }
 
-TEST(AmbientOcclusion, IsTheConstantWithoutRaysOrRadius) {
-  for (const float radius : {0.0f, 2.0f}) {
+TEST(AmbientOcclusion, IsTheConstantWithoutRaysOrRadiusOrTheEffect) {
+  struct Absent {
+    float radius;
+    Settings settings;
+  };
+  for (const auto& [radius, settings] : {Absent{0, occluded(4)},
+                                         {2, occluded(0)},
+                                         {2, without(Effect::ambientOcclusion, occluded(4))}}) {
     SceneBuilder builder = floorInAmbientLight(radius);
-    builder.add(test::ceilingAt(1, 1000, 0));
-    const Scene scene = builder.build();
-    Settings settings = occluded(radius > 0 ? 0 : 4);
+    builder.add(ceilingAt(1, 1000, 0));
     RayCounts counts;
-    EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings, &counts), RgbD(1.0));
+    EXPECT_EQ(radianceBelow(builder.build(), {0, 0.5, 0}, settings, &counts), RgbD(1.0));
     EXPECT_EQ(counts[RayKind::occlusion], 0u);
-
-    settings = occluded(4);
-    settings.effects = settings.effects.without(Effect::ambientOcclusion);
-    EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings), RgbD(1.0));
   }
 }
 
@@ -119,18 +115,15 @@ TEST(AmbientOcclusion, OfASurfaceByItself) {
   s.geometricNormal = s.view = {0, 1, 0};
   s.shadingNormal = normalized(Vec3d(1, 1, 0));
 
-  SampleMean mean;
-  const LobeSampling points{1024, 0, 0};
-  const EffectSet effects = EffectSet::all().without(Effect::indirect);
-
-  for (std::uint32_t k = 0; k < points.count; ++k) {
-    const LightArrival a = ambientArrival(scene, effects, s, {}, lobePoint(7, points, k));
-    mean.add(a.radiance.x);
+  const SampleMean mean = meanOf(1024, [&](auto k) {
+    const LightArrival a =
+        ambientArrival(scene, allBut(Effect::indirect), s, {}, lobePoint(7, {1024, 0, 0}, k));
     if (a.radiance.x > 0) {
       EXPECT_GT(a.shadowRay.direction.y, 0);
+      EXPECT_EQ(a.tFar, 1);
     }
-    EXPECT_TRUE(a.radiance.x == 0 || a.tFar == 1);
-  }
+    return a.radiance.x;
+  });
 
   // Half of the lobe's disc is open, and the other half is foreshortened by the angle between the
   // normals.

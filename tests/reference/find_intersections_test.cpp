@@ -7,30 +7,24 @@
 #include <functional>
 #include <utility>
 
-#include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 #include "rounding.h"
 
 namespace whit::reference {
 namespace {
 
-using test::makeTexture;
-using test::Numbers;
-using test::SceneBuilder;
+using namespace test;
 
 // Hard case H3: the point by its weights lies on the triangle, however far the eye is.
 TEST(Triangle, RefinedHitStaysOnTheTriangle) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(0, 0.5f, 0));
-  const Scene scene = builder.build();
+  const Scene scene = withFloor(blackMaterial(), 0.5f).build();
   Numbers numbers(2);
-  for (int i = 0; i < 1000; ++i) {
+  for (std::uint32_t i = 0; i < 1000; ++i) {
     // Some rays aim a little beyond the border, like candidates found in float.
     const Vec3d target{numbers.in(-0.5001, 0.5001), 0, numbers.in(-0.5001, 0.5001)};
     const Vec3d eye{1e5, numbers.in(1, 100), numbers.in(-1e5, 1e5)};
-    const Ray ray{eye, normalized(target - eye)};
 
-    const TriangleHit hit = refineHit(scene, ray, {static_cast<std::uint32_t>(i % 2)});
+    const TriangleHit hit = refineHit(scene, {eye, normalized(target - eye)}, {i % 2});
     EXPECT_GE(hit.u, 0);
     EXPECT_GE(hit.v, 0);
     EXPECT_LE(hit.u + hit.v, 1 + 1e-15);
@@ -39,9 +33,7 @@ TEST(Triangle, RefinedHitStaysOnTheTriangle) {
 }
 
 TEST(Triangle, UselessCandidateKeepsItsHint) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(0, 1, 0));
-  const Scene scene = builder.build();
+  const Scene scene = withFloor(blackMaterial()).build();
   // A ray along the plane has no intersection to compute.
   const Ray along{{-5, 0, 0}, {1, 0, 0}};
   const TriangleHit hit = refineHit(scene, along, {0, kNoHit, 0.25, 0.5});
@@ -55,8 +47,8 @@ TEST(Triangle, UselessCandidateKeepsItsHint) {
   EXPECT_LE(lost.u + lost.v, 1);
 }
 
-// Returns the surfel that a ray hits, by brute force.
-Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards,
+// Returns the surfel that a ray hits, by brute force. The ray goes straight down by default.
+Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards = {0, -1, 0},
                    EffectSet effects = EffectSet::all()) {
   const Ray ray{origin, normalized(towards)};
   Candidate candidate;
@@ -68,89 +60,69 @@ Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards
 }
 
 TEST(Surfel, NormalsFaceTheViewer) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(1, 2, 0));
-  const Scene scene = builder.build();
-  const Surfel above = surfelAlong(scene, {0.5, 3, 0.25}, {0, -1, 0});
-  EXPECT_TRUE(above.entering);
-  expectNear(above.position, {0.5, 1, 0.25}, 1e-15);
-  expectNear(above.geometricNormal, {0, 1, 0}, 0);
-  expectNear(above.shadingNormal, {0, 1, 0}, 0);
-  expectNear(above.view, {0, 1, 0}, 0);
-
-  const Surfel below = surfelAlong(scene, {0.5, -3, 0.25}, {0, 1, 0});
-  EXPECT_FALSE(below.entering);
-  expectNear(below.geometricNormal, {0, -1, 0}, 0);
-  expectNear(below.shadingNormal, {0, -1, 0}, 0);
+  const Scene scene = withFloor(blackMaterial()).build();
+  for (const double side : {1.0, -1.0}) {
+    const Surfel s = surfelAlong(scene, {0.5, 2 * side, 0.25}, {0, -side, 0});
+    EXPECT_EQ(s.entering, side > 0);
+    expectNear(s.position, {0.5, 0, 0.25}, 1e-15);
+    for (const Vec3d& direction : {s.geometricNormal, s.shadingNormal, s.view}) {
+      EXPECT_EQ(direction, Vec3d(0, side, 0));
+    }
+  }
 }
 
 TEST(Surfel, OffsetBoundsTheRounding) {
   SceneBuilder builder;
-  builder.add(test::floorAt(3, 2, 0));
+  builder.add(floorAt(3, 2, 0));
   const Scene scene = builder.build();
 
   // In the corner (-2, 3, 2) the edges add up to (8, 0, 4); the magnitude along the normal is 3.
-  const double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0),
-               viewOffset = u * (14 + 12);
-  const Surfel s = surfelAlong(scene, {-2, 9, 2}, {0, -1, 0});
+  constexpr double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0);
+  const Surfel s = surfelAlong(scene, {-2, 9, 2});
   EXPECT_DOUBLE_EQ(s.offset, offset);
-  EXPECT_DOUBLE_EQ(s.viewOffset, viewOffset);
+  EXPECT_DOUBLE_EQ(s.viewOffset, u * (14 + 12));
 
   // In the middle of the diagonal the magnitudes of both corners are averaged, not their
   // coordinates.
-  const Surfel middle = surfelAlong(scene, {0, 9, 0}, {0, -1, 0});
-  EXPECT_DOUBLE_EQ(middle.offset, offset);
-}
+  EXPECT_DOUBLE_EQ(surfelAlong(scene, {0, 9, 0}).offset, offset);
 
-// Where other surfaces are coplanar, all magnitudes count: those of the point (7) and of both edges
-// (4 and 4 + 4).
-TEST(Surfel, OffsetIsThatOfAllMagnitudesWhereOthersLie) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(3, 2, 0));
-  const Scene scene = builder.build();
-
-  const Surfel s =
+  // Where other surfaces are coplanar, all magnitudes count: those of the point (7) and of both
+  // edges (4 and 4 + 4).
+  const Surfel among =
       makeSurfel(scene, EffectSet::all(), {0}, {6, 0, 0}, {{-2, 9, 2}, {0, -1, 0}}, {}, true);
-  EXPECT_DOUBLE_EQ(s.offset, (32 * 7 + 16 * 12) / 16777216.0);
-  EXPECT_DOUBLE_EQ(s.viewOffset, (16 * 7 + 8 * 12) / 16777216.0);
+  EXPECT_DOUBLE_EQ(among.offset, u * (32 * 7 + 16 * 12));
+  EXPECT_DOUBLE_EQ(among.viewOffset, u * (16 * 7 + 8 * 12));
 }
 
-Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {
+// Returns a floor at height 0, 2 wide, with normals at its corners.
+Mesh floorWith(const std::vector<Vec3f>& normals) {
+  Mesh mesh = floorAt(0, 1, 0);
   mesh.normals = normals;
   return mesh;
 }
 
-TEST(Surfel, InterpolatesNormals) {
+Scene sceneOf(Mesh mesh) {
   SceneBuilder builder;
-  const float s = std::sqrt(0.5f);
-  // The normal of the first edge leans left, that of the opposite one right.
-  builder.add(withNormals(test::floorAt(0, 1, 0), {{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
-  const Scene scene = builder.build();
-  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
-
-  // At three quarters of the way, the tangent is half of the border's.
-  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
-             normalized(Vec3d{0.5, 1, 0}), 1e-7);
-
-  const EffectSet flat = EffectSet::all().without(Effect::smoothNormals);
-  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0}, 0);
+  builder.add(std::move(mesh));
+  return builder.build();
 }
 
-// Hard case H34: where interpolated normals cancel, the normal of the face is used.
-TEST(Surfel, CancellingNormals) {
-  SceneBuilder builder;
-  builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
-  const Scene scene = builder.build();
-  const Surfel s = surfelAlong(scene, {0, 1, 1}, {0, -1, 0});
-  expectNear(s.shadingNormal, {0, 1, 0}, 0);
+TEST(Surfel, InterpolatesNormals) {
+  const float s = std::sqrt(0.5f);
+  // The normal of the first edge leans left, that of the opposite one right.
+  const Scene scene = sceneOf(floorWith({{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
+  expectNear(surfelAlong(scene, {0, 1, 0.5}).shadingNormal, {0, 1, 0}, 1e-7);
+
+  // At three quarters of the way, the tangent is half of the border's.
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}).shadingNormal, normalized(Vec3d{0.5, 1, 0}), 1e-7);
+
+  const EffectSet flat = allBut(Effect::smoothNormals);
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0}, 0);
 }
 
 // Facing is decided by the geometric normal alone (hard case H33).
 TEST(Surfel, ShadingNormalMayLookAway) {
-  SceneBuilder builder;
-  const Vec3f tilted{0.8f, 0.6f, 0};
-  builder.add(withNormals(test::floorAt(0, 1, 0), {tilted, tilted, tilted, tilted}));
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(floorWith(std::vector(4, Vec3f{0.8f, 0.6f, 0})));
   const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
   EXPECT_TRUE(s.entering);
   EXPECT_LT(dot(s.view, s.shadingNormal), 0);
@@ -160,20 +132,18 @@ TEST(Surfel, ShadingNormalMayLookAway) {
 // The texel centers at u = 1/4 and 3/4 have a green of 1 and 1/5, with 3/5 halfway between them.
 TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   SceneBuilder builder;
-  Material m = test::diffuseMaterial(0.5f);
+  Material m = diffuseMaterial(0.5f);
   m.specular = Rgb(0.5f);
   m.roughness = 0.75f;
   m.roughnessMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
 
-  Mesh floor = test::quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
-  builder.add(floor);
+  builder.add(floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
 
-  const auto alphaAt = [&](double u) { return surfelAlong(scene, {u, 1, -0.5}, {0, -1, 0}).alpha; };
-  EXPECT_NEAR(alphaAt(0.25), 0.75 * 0.75, 1e-7);
-  EXPECT_NEAR(alphaAt(0.5), 0.45 * 0.45, 1e-7);
-  EXPECT_NEAR(alphaAt(0.75), 0.15 * 0.15, 1e-7);
+  for (const auto& [x, roughness] : {std::pair{-0.5, 0.75}, {0.0, 0.45}, {0.5, 0.15}}) {
+    EXPECT_NEAR(surfelAlong(scene, {x, 1, 0}).alpha, roughness * roughness, 1e-7) << x;
+  }
 }
 
 // A channel of 8 bits is off by half a step of 2/255, before the normal is normalized.
@@ -187,12 +157,12 @@ void expectLeaning(const Vec3d& alongU, const Vec3d& alongV,
                    double tolerance = kCoding) {
   for (const bool leansAlongU : {true, false}) {
     SceneBuilder builder;
-    Material m = test::diffuseMaterial(1);
+    Material m = diffuseMaterial(1);
     const float lean = 0.5f + 0.5f * 0.6f, level = 0.5f;
     m.normalMap = builder.add(makeTexture(
         TexelFormat::data, 1, 1,
         {encodeDataTexel(leansAlongU ? lean : level, leansAlongU ? level : lean, 0.9f, 1)}));
-    place(builder, test::floorAt(0, 1, builder.add(m)));
+    place(builder, floorAt(0, 1, builder.add(m)));
     expectNear(surfelAlong(builder.build(), {0.1, side, 0.2}, {0, -side, 0}).shadingNormal,
                leansAlongU ? alongU : alongV, tolerance);
   }
@@ -232,8 +202,7 @@ TEST(NormalMap, MirroredInstance) {
 TEST(Surfel, InstancesMatchBakedGeometry) {
   const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
                      Affine::scaling({-1000, 0.5, 2});
-  const Mesh mesh = withNormals(test::floorAt(0, 1, 0),
-                                {{0, 0.8f, 0.6f}, {0.6f, 0.8f, 0}, {0, 1, 0}, {-0.28f, 0.96f, 0}});
+  const Mesh mesh = floorWith({{0, 0.8f, 0.6f}, {0.6f, 0.8f, 0}, {0, 1, 0}, {-0.28f, 0.96f, 0}});
 
   SceneBuilder instanced, baked;
   instanced.place({"floor", {mesh}}, {map, Affine::translation({0, 1e6, 0})});
@@ -260,85 +229,67 @@ TEST(Surfel, InstancesMatchBakedGeometry) {
   }
 }
 
-// Normals are interpolated in the model and then transformed by the inverse transpose, for baked
-// meshes as for instances.
+// Normals are interpolated in the model and then transformed by the inverse transpose, for
+// instances too, which match baked meshes.
 TEST(Surfel, NormalsAreInterpolatedAsModelled) {
-  const Vec3d scale{1, 4, 0.25};
-  const Affine map = Affine::rotation({1, 2, 3}, 40) * Affine::scaling(scale);
-  const double s = std::sqrt(0.5);
+  const Affine map = Affine::rotation({1, 2, 3}, 40) * Affine::scaling({1, 4, 0.25});
+  const float s = std::sqrt(0.5f);
 
   // The normals of the corners differ, so that the order of the two steps matters.
-  const Mesh mesh =
-      withNormals(test::floorAt(0, 1, 0), {{static_cast<float>(-s), static_cast<float>(s), 0},
-                                           {0, static_cast<float>(s), static_cast<float>(s)},
-                                           {0, 1, 0},
-                                           {0, 1, 0}});
+  const Mesh mesh = floorWith({{-s, s, 0}, {0, s, s}, {0, 1, 0}, {0, 1, 0}});
 
-  for (const bool baked : {true, false}) {
-    SceneBuilder builder;
-    std::vector<Affine> placements{map};
-    if (!baked) placements.push_back(Affine::translation({0, 1e4, 0}));
-    builder.place({"floor", {mesh}}, placements);
-    const Scene scene = builder.build();
-    ASSERT_EQ(scene.instances.empty(), baked);
+  SceneBuilder builder;
+  builder.place({"floor", {mesh}}, {map});
+  const Scene scene = builder.build();
 
-    // The weights belong to the triangle of the corners 0, 1 and 2 at (-1, 0, 1), (1, 0, 1) and (1,
-    // 0, -1).
-    constexpr double kWeights[][2] = {{0.25, 0.25}, {0.5, 0.1}, {0.05, 0.05}, {0.9, 0.05}};
-    for (const auto& [u, v] : kWeights) {
-      const double w = 1 - u - v;
-      const Vec3d mean = Vec3d{-s, s, 0} * w + Vec3d{0, s, s} * u + Vec3d{0, 1, 0} * v;
-      const Vec3d wanted = normalized(map.normal(mean));
-      const Vec3d at = map.point({-w + u + v, 0, w + u - v}), up = map.normal({0, 1, 0});
-      const Surfel seen = surfelAlong(scene, at + up, -up);
+  // The weights belong to the triangle of the corners 0, 1 and 2 at (-1, 0, 1), (1, 0, 1) and (1,
+  // 0, -1).
+  constexpr double kWeights[][2] = {{0.25, 0.25}, {0.5, 0.1}, {0.05, 0.05}, {0.9, 0.05}};
+  for (const auto& [u, v] : kWeights) {
+    const double w = 1 - u - v;
+    const Vec3d mean =
+        Vec3d(mesh.normals[0]) * w + Vec3d(mesh.normals[1]) * u + Vec3d(mesh.normals[2]) * v;
+    const Vec3d at = map.point({-w + u + v, 0, w + u - v}), up = map.normal({0, 1, 0});
 
-      // Baked corners are rounded to float, and the map stretches lengths by up to 16.
-      expectNear(seen.shadingNormal, wanted, 1e-5);
-    }
+    // Baked corners are rounded to float, and the map stretches lengths by up to 16.
+    expectNear(surfelAlong(scene, at + up, -up).shadingNormal, normalized(map.normal(mean)), 1e-5);
   }
 }
 
 TEST(Surfel, TexturesMultiplyColors) {
   SceneBuilder builder;
-  Material m = test::diffuseMaterial(0.5f);
+  Material m = diffuseMaterial(0.5f);
   m.specular = Rgb(0.25f);
-  const Texture dark = makeTexture(TexelFormat::color, 2, 1,
-                                   {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 1, 0})});
-  m.diffuseMap = m.specularMap = builder.add(dark);
-  builder.add(test::floorAt(0, 1, builder.add(m)));
+  m.diffuseMap = m.specularMap = builder.add(makeTexture(
+      TexelFormat::color, 2, 1, {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 1, 0})}));
+  builder.add(floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
 
   // u = 0.5 is halfway between black and yellow.
-  const Surfel s = surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0});
+  const Surfel s = surfelAlong(scene, {0, 1, 0.5});
   expectNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
   expectNear(s.specular, {0.125, 0.125, 0}, 1e-12);
 
-  const EffectSet plain = EffectSet::all().without(Effect::textures);
-  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
+  EXPECT_EQ(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, allBut(Effect::textures)).diffuse,
+            RgbD(0.5));
 }
 
 TEST(Surfel, RoughnessIsSquaredAndBounded) {
-  SceneBuilder builder;
-  Material rough = test::diffuseMaterial(1), smooth = rough;
-  rough.roughness = 0.5f;
-  smooth.roughness = 0;
-  builder.add(test::floorAt(0, 1, builder.add(rough)));
-  builder.add(test::floorAt(-1, 9, builder.add(smooth)));
-  const Scene scene = builder.build();
-
-  EXPECT_EQ(surfelAlong(scene, {0, 1, 0}, {0, -1, 0}).alpha, 0.25);
-  EXPECT_DOUBLE_EQ(surfelAlong(scene, {5, 1, 0}, {0, -1, 0}).alpha,
-                   double{kMinRoughness} * kMinRoughness);
+  for (const auto& [roughness, used] : {std::pair{0.5f, 0.5f}, {0.0f, kMinRoughness}}) {
+    Material m = diffuseMaterial(1);
+    m.roughness = roughness;
+    EXPECT_DOUBLE_EQ(surfelAlong(withFloor(m).build(), {0, 1, 0}).alpha, double{used} * used);
+  }
 }
 
 // The mask rises linearly from 0 at u = 1/4 to 1 at u = 3/4, and is cut at 1/2.
 TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   SceneBuilder builder;
-  Material m = test::diffuseMaterial(1);
+  Material m = diffuseMaterial(1);
   m.alphaMap = builder.add(makeTexture(TexelFormat::data, 2, 1, {0x00u, 0xffu}));
   m.alphaCutoff = 0.5f;
-  builder.add(test::floorAt(0, 1, builder.add(m)));
-  builder.add(test::floorAt(-1, 1, builder.add(test::diffuseMaterial(1))));
+  builder.add(floorAt(0, 1, builder.add(m)));
+  builder.add(floorAt(-1, 1, builder.add(diffuseMaterial(1))));
   const Scene scene = builder.build();
 
   const auto heightSeen = [&](double x, EffectSet effects) {
@@ -346,38 +297,11 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   };
   EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all()), -1, 1e-12);
   EXPECT_NEAR(heightSeen(1e-9, EffectSet::all()), 0, 1e-12);
-  EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all().without(Effect::alphaMasks)), 0, 1e-12);
+  EXPECT_NEAR(heightSeen(-1e-9, allBut(Effect::alphaMasks)), 0, 1e-12);
 
   const BruteForce bruteForce(scene);
   EXPECT_FALSE(bruteForce.occluded({{-1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
   EXPECT_TRUE(bruteForce.occluded({{1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
-}
-
-// The row has every column of the surfel. There is no row for a ray without a hit.
-TEST(FindIntersectionsReference, IsTheSurfelOfTheHit) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(1, 2, builder.add(test::glassMaterial(1.5f))));
-  const Scene scene = builder.build();
-
-  test::SmallChunk small(scene, FeatureSet::all().without(Feature::instances));
-  test::setRay(small.chunk.rays, 0, {0.5f, 3, 0.25f}, {0, -1, 0});
-  small.chunk.hits.triangle[0] = kMiss;
-  EXPECT_FALSE(findIntersections(small.world, small.chunk, 0));
-
-  small.chunk.hits.triangle[0] = 1;
-  small.chunk.hits.t[0] = 2;
-  small.chunk.hits.u[0] = 0.25f;
-  small.chunk.hits.v[0] = 0.5f;
-  const auto row = findIntersections(small.world, small.chunk, 0);
-  ASSERT_TRUE(row);
-
-  const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, Ray{});
-  EXPECT_EQ(Vec3d(row->pos), s.position);
-  EXPECT_EQ(Vec3d(row->ng), Vec3d(0, 1, 0));
-  EXPECT_EQ(row->offset, s.offset);
-  EXPECT_EQ(row->material, s.material);
-  EXPECT_EQ(row->flags, kEntering);
-  EXPECT_EQ(row->mediaBehind, scene.mediumOfMaterial[s.material]);
 }
 
 }  // namespace

@@ -1,44 +1,31 @@
-// Fresnel's and Snell's laws (hard cases H37-H41).
+// Fresnel's and Snell's laws (hard cases H37 to H40).
 #include "reference/fresnel.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "reference/lobe.h"
 #include "reference/small_scenes.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
 
-// The formulas of textbooks, in long double.
-long double fresnelOracle(long double n1, long double n2, long double c) {
-  const long double sinT = n1 / n2 * std::sqrt(1 - c * c);
-  if (sinT >= 1) return 1;
-  const long double ct = std::sqrt(1 - sinT * sinT);
-  const long double s = (n1 * c - n2 * ct) / (n1 * c + n2 * ct);
-  const long double p = (n2 * c - n1 * ct) / (n2 * c + n1 * ct);
-  return (s * s + p * p) / 2;
-}
+using namespace test;
 
 double reflectance(double n1, double n2, double c) { return makeInterface(n1, n2, c).reflectance; }
 
-TEST(Fresnel, Anchors) {
-  EXPECT_NEAR(reflectance(1, 1.5, 1), 0.04, 1e-16);
-
-  // At Brewster's angle, tan = 1.5, the parallel part vanishes.
-  EXPECT_NEAR(reflectance(1, 1.5, 1 / std::sqrt(1 + 1.5 * 1.5)),
-              std::pow((1.5 * 1.5 - 1) / (1.5 * 1.5 + 1), 2) / 2, 1e-15);
-
-  // Towards grazing incidence, 1 - F approaches 2 c (1 + n^2) / sqrt(n^2 - 1).
-  EXPECT_NEAR(1 - reflectance(1, 1.5, 1e-4), 5.8118e-4, 1e-8);
+double schlick(double n1, double n2, double c) {
+  return makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
 }
 
 TEST(Fresnel, AgreesWithTheTextbookForm) {
-  test::Numbers numbers(3);
+  Numbers numbers(3);
   for (const double n2 : {1.33, 1.5, 2.42}) {
     for (int i = 0; i < 20000; ++i) {
       const double c = numbers.in(1e-3, 1);
-      const double truth = static_cast<double>(fresnelOracle(1, n2, c));
+      const auto truth = static_cast<double>(fresnelOf<long double>(1, n2, c));
       EXPECT_NEAR(reflectance(1, n2, c), truth, 1e-13 * truth) << n2 << " at " << c;
     }
   }
@@ -46,12 +33,11 @@ TEST(Fresnel, AgreesWithTheTextbookForm) {
 
 // The reflectance is the same from either side along the same path.
 TEST(Fresnel, IsReciprocal) {
-  test::Numbers numbers(4);
+  Numbers numbers(4);
   for (int i = 0; i < 10000; ++i) {
     const double eta = numbers.in(1.01, 3), c = numbers.in(1e-3, 1);
     const Interface there = makeInterface(1, eta, c);
-    const double cosineBehind = there.g / eta;
-    EXPECT_NEAR(makeInterface(eta, 1, cosineBehind).reflectance, there.reflectance, 1e-9);
+    EXPECT_NEAR(reflectance(eta, 1, there.g / eta), there.reflectance, 1e-9);
   }
 }
 
@@ -87,43 +73,19 @@ TEST(Fresnel, NearlyEqualIndices) {
     }
   }
   EXPECT_NEAR(static_cast<double>(oracleOfNearlyEqual(0.5, 0.3)),
-              static_cast<double>(fresnelOracle(1, 1.5, 0.3L)), 1e-15);
-}
-
-// Hard case H37: the reflectance is 1 from the critical angle on, exactly where g2 is at most 0.
-TEST(Fresnel, CriticalAngle) {
-  const double critical = std::sqrt(1 - 1 / (1.5 * 1.5));
-  EXPECT_NEAR(critical, 0.745355992500, 1e-12);
-
-  for (int ulps = -2000; ulps <= 2000; ++ulps) {
-    const double c = critical + ulps * 1.1102230246251565e-16;
-    const Interface i = makeInterface(1.5, 1, c);
-    const double g2 = (1 - 1.5) * (1 + 1.5) / (1.5 * 1.5) + c * c;
-    EXPECT_EQ(i.reflectance == 1, g2 <= 0) << ulps;
-    EXPECT_TRUE(i.reflectance >= 0 && i.reflectance <= 1) << ulps;
-
-    if (g2 > 0) {
-      const double s = std::sqrt(1 - c * c);
-      const Vec3d bent = refract(i, {s, -c, 0}, {0, 1, 0}, c);
-      EXPECT_NEAR(length(bent), 1, 1e-15);
-      // This close to the critical angle, the refracted ray is along the surface within sqrt(g2), a
-      // few 1e-6.
-      EXPECT_NEAR(bent.y, 0, 3e-6);
-    }
-  }
+              static_cast<double>(fresnelOf<long double>(1, 1.5, 0.3L)), 1e-15);
 }
 
 TEST(Fresnel, ExactlyCriticalIsTotal) {
   // The triangle of sides 3, 4 and 5: n1 = 5, n2 = 3 gives k = -16/25 and, at c = 4/5, g2 = 0 but
   // for rounding.
-  const Interface i = makeInterface(5, 3, std::sqrt(16.0 / 25));
-  EXPECT_NEAR(i.reflectance, 1, 1e-7);
-  EXPECT_EQ(makeInterface(1, 1.5, 0).reflectance, 1);
-  EXPECT_EQ(makeInterface(1.5, 1, 0).reflectance, 1);
+  EXPECT_NEAR(reflectance(5, 3, std::sqrt(16.0 / 25)), 1, 1e-7);
+  EXPECT_EQ(reflectance(1, 1.5, 0), 1);
+  EXPECT_EQ(reflectance(1.5, 1, 0), 1);
 }
 
 TEST(Refraction, ObeysSnell) {
-  test::Numbers numbers(5);
+  Numbers numbers(5);
   for (int i = 0; i < 10000; ++i) {
     const double n1 = numbers.in(1, 2.5), n2 = numbers.in(1, 2.5);
     const Vec3d n = numbers.direction();
@@ -141,22 +103,22 @@ TEST(Refraction, ObeysSnell) {
     EXPECT_NEAR(length(t), 1, 1e-14);
     EXPECT_LT(dot(t, n), 0);
     // n sin is kept, as a vector along the surface.
-    EXPECT_LT(length(cross(n, t) * n2 - cross(n, d) * n1), 1e-13);
+    expectNear(cross(n, t) * n2, cross(n, d) * n1, 1e-13);
   }
 }
 
 TEST(Reflection, TurnsOverTheNormalPart) {
-  test::Numbers numbers(6);
+  Numbers numbers(6);
   for (int i = 0; i < 1000; ++i) {
     const Vec3d n = numbers.direction(), d = numbers.direction(), r = reflect(d, n);
     EXPECT_NEAR(dot(r, n), -dot(d, n), 1e-14);
-    EXPECT_LT(length(cross(n, r) - cross(n, d)), 1e-14);
+    expectNear(cross(n, r), cross(n, d), 1e-14);
   }
 }
 
 // Hard case H52: many reflections keep the length.
 TEST(Reflection, KeepsUnitLength) {
-  test::Numbers numbers(7);
+  Numbers numbers(7);
   Vec3d d = numbers.direction();
   for (int i = 0; i < 64; ++i) d = reflect(d, numbers.direction());
   EXPECT_NEAR(length(d), 1, 4e-16);
@@ -165,10 +127,6 @@ TEST(Reflection, KeepsUnitLength) {
 // Values of Schlick's polynomial at normal incidence, at an angle worked out by hand, and beyond
 // the critical angle.
 TEST(Schlick, H40_knownValues) {
-  const auto schlick = [](double n1, double n2, double c) {
-    return makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
-  };
-
   EXPECT_NEAR(schlick(1, 1.5, 1), 0.04, 1e-15);
   EXPECT_NEAR(schlick(1, 1.5, 0.5), 0.04 + 0.96 / 32, 1e-15);
   // The ray leaves the dense side at a cosine whose refracted ray has the cosine 1/2, which gives
@@ -185,18 +143,11 @@ TEST(Schlick, H40_knownValues) {
 
 // Schlick's polynomial is off by at most 0.04 for glass, from either side.
 TEST(Schlick, StaysNearFresnel) {
-  double worst = 0;
   for (int i = 1; i <= 1000; ++i) {
     const double c = i / 1000.0;
-    for (const auto& [n1, n2] : {std::pair(1.0, 1.5), std::pair(1.5, 1.0)}) {
-      const double approximate = makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
-      worst = std::max(worst, std::fabs(approximate - reflectance(n1, n2, c)));
-    }
+    EXPECT_NEAR(schlick(1, 1.5, c), reflectance(1, 1.5, c), 0.04) << c;
+    EXPECT_NEAR(schlick(1.5, 1, c), reflectance(1.5, 1, c), 0.04) << c;
   }
-
-  std::printf("Schlick against Fresnel at ior 1.5: largest difference %.4f (at most 0.04)\n",
-              worst);
-  EXPECT_LE(worst, 0.04);
 }
 
 }  // namespace

@@ -5,15 +5,12 @@
 
 #include "pi.h"
 #include "reference/small_scenes.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
 
-using test::addSlab;
-using test::glassMaterial;
-using test::radianceAlong;
-using test::SceneBuilder;
-using test::steep;
+using namespace test;
 
 TEST(Furnace, SplitsAsTheSeriesSays) {
   SceneBuilder builder;
@@ -21,28 +18,24 @@ TEST(Furnace, SplitsAsTheSeriesSays) {
 
   Sky& sky = builder.description.sky;
   sky.kind = Sky::Kind::gradient;  // white above, black below
-  sky.zenith = sky.horizon = Rgb(1.0f);
-  const Scene scene = builder.build();
-  const double reflected = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(40)).x;
-  // The gradient starts at the horizon, so that the sky straight below is `ground`, black.
-  EXPECT_NEAR(reflected, 2 * 0.04 / 1.04, 1e-12);
+  sky.zenith = Rgb(1.0f);
+  EXPECT_NEAR(radianceBelow(builder.build(), {0, 2, 0}, uncut(40)).x, 2 * 0.04 / 1.04, 1e-12);
 }
 
 // Calls seen(radiance, i) for rays from all around to a turned box of the material in a white room.
 template <typename Seen>
 void lookAtTurnedBox(const Material& material, const Seen& seen) {
   SceneBuilder builder;
-  const auto own = builder.add(material);
-  builder.place({"box", {test::box({-1, -0.5f, -1}, {1, 0.5f, 1}, own)}},
+  builder.place({"box", {box({-1, -0.5f, -1}, {1, 0.5f, 1}, builder.add(material))}},
                 {Affine::rotation({1, 2, 3}, 33)});
   builder.sky(1);
   const Scene scene = builder.build();
 
-  test::Numbers numbers(13);
+  Numbers numbers(13);
   for (int i = 0; i < 300; ++i) {
     const Vec3d eye = numbers.direction() * 5.0;
     const Vec3d target{numbers.in(-0.9, 0.9), numbers.in(-0.4, 0.4), numbers.in(-0.9, 0.9)};
-    seen(radianceAlong(scene, eye, target - eye, test::uncut(64)), i);
+    seen(radianceAlong(scene, eye, target - eye, uncut(64)), i);
   }
 }
 
@@ -66,15 +59,18 @@ RgbD seenOfSlab(const Material& material, int inside) {
   SceneBuilder builder;
   addSlab(builder, 0, -1, builder.add(material));
   builder.sky(1);
-  return radianceAlong(builder.build(), {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1));
+  return radianceBelow(builder.build(), {0, 2, 0}, uncut(inside + 1));
 }
+
+// What both faces of the slab reflect.
+double reflectedBy(float mirror) { return 0.04 + 0.96 * double{mirror}; }
 
 // All light comes back, except what is still inside at the deepest impulse (hard case H43). A
 // mirror coat takes its share from the light that glass reflects and transmits: both faces reflect
 // R = m + (1 - m) F and transmit the rest.
 TEST(Furnace, SlabLosesOnlyTheTail) {
   for (const float mirror : {0.0f, 0.05f, 0.2f, 0.5f, 1.0f}) {
-    const double r = double{mirror} + (1 - double{mirror}) * 0.04;
+    const double r = reflectedBy(mirror);
     for (const int inside : {1, 2, 8, 64}) {
       const double seen = seenOfSlab(coatedGlass(mirror, Rgb(1.0f)), inside).x;
       EXPECT_NEAR(seen, 1 - std::pow(r, inside) * (1 - r), 1e-14) << mirror << " " << inside;
@@ -87,7 +83,7 @@ TEST(Furnace, SlabLosesOnlyTheTail) {
 TEST(Furnace, CoatTakesWhatTintedGlassAbsorbsFirst) {
   const RgbD tint(Rgb{0.9f, 0.6f, 0.3f});
   for (const float mirror : {0.05f, 0.2f}) {
-    const double r = double{mirror} + (1 - double{mirror}) * 0.04;
+    const double r = reflectedBy(mirror);
     const RgbD t = tint * (0.96 * (mirror < 0.1f ? 1 : (1 - double{mirror}) / tint.x));
     const RgbD wanted = RgbD(r) + t * t / (1 - r);
 
@@ -125,24 +121,18 @@ TEST(Absorption, DependsOnThePathInside) {
   for (const double degrees : {0.0, 30.0, 60.0}) {
     const double path = 1 / std::cos(degrees * kPi / 180);
     const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
-    EXPECT_NEAR(seen.x, std::exp(-path), kOffsetsOfTwoFaces) << degrees;
-    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsetsOfTwoFaces) << degrees;
-    EXPECT_EQ(seen.z, 1);
+    expectNear(seen, {std::exp(-path), std::exp(-path / 2), 1}, kOffsetsOfTwoFaces);
 
-    Settings clear = test::uncut();
-    clear.effects = EffectSet::all().without(Effect::absorption);
-    EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), clear), RgbD(1.0));
+    EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), without(Effect::absorption)),
+              RgbD(1.0));
   }
 }
 
 // Behind an interface without a far side, any absorption absorbs everything (hard case H49).
 TEST(Absorption, OpenSurfaceLeadsToInfinity) {
-  SceneBuilder builder;
   Material tinted = glassMaterial(1);
   tinted.absorption = {1e-3f, 0, 0};
-  builder.add(test::floorAt(0, 4, builder.add(tinted)));
-  builder.sky(1);
-  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}), RgbD(0, 1, 1));
+  EXPECT_EQ(radianceBelow(floorUnderSky(tinted)), RgbD(0, 1, 1));
 }
 
 // The cutoff includes absorption.
@@ -153,10 +143,10 @@ TEST(Absorption, ShortensPathsThroughTheCutoff) {
   addSlab(builder, 0, -1, builder.add(dark));
   builder.sky(1);
 
-  Settings settings = test::uncut();
+  Settings settings = uncut();
   settings.options.cutoff = 1e-3f;
   RayCounts counts;
-  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
+  EXPECT_EQ(radianceBelow(builder.build(), {0, 1, 0}, settings, &counts), RgbD());
   EXPECT_EQ(counts[RayKind::refraction], 1u)
       << "exp(-10) is below the cutoff: the way out is not traced";
 }

@@ -1,10 +1,13 @@
-// Level surfels with a glossy lobe, random points for its samples, and formulas and integrals to
-// compare it with.
+// Level surfels with a glossy lobe, random points for its samples, and formulas to compare it with.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "core/index.h"
 #include "pi.h"
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "sampling/ggx_lobe.h"
@@ -27,9 +30,52 @@ inline Surfel levelSurfel(double alpha, double f0, const Vec3d& view) {
   return s;
 }
 
+// A direction that leans away from the z axis by up to 55 degrees.
+inline Vec3d bentNormal(verify::Numbers& numbers) {
+  const double x = numbers.in(-1, 1), y = numbers.in(-1, 1);
+  return normalized(Vec3d(x, y, 1));
+}
+
 inline UnitPoint pointOf(verify::Numbers& numbers) {
   const auto u = static_cast<float>(numbers.in(0, 1)), v = static_cast<float>(numbers.in(0, 1));
   return {u, v};
+}
+
+// Fresnel's reflectance by Snell's law and the two amplitudes, as textbooks have them.
+template <typename Real>
+Real fresnelOf(Real n1, Real n2, Real c) {
+  const Real sine = n1 / n2 * std::sqrt(1 - c * c);
+  if (sine >= 1) return 1;
+  const Real behind = std::sqrt(1 - sine * sine);
+  const Real s = (n1 * c - n2 * behind) / (n1 * c + n2 * behind);
+  const Real p = (n1 * behind - n2 * c) / (n1 * behind + n2 * c);
+  return (s * s + p * p) / 2;
+}
+
+// The one of `cells` equal parts of [0, 1] that a number is in.
+inline std::size_t cellOf(double number, int cells) {
+  return static_cast<std::size_t>(std::clamp(static_cast<int>(number * cells), 0, cells - 1));
+}
+
+// Pearson's test of how often each cell was drawn against the expected numbers.
+inline void expectDistributed(std::span<const double> seen, std::span<const double> expected) {
+  double chiSquared = 0, pooledSeen = 0, pooledExpected = 0;
+  int freedom = -1;
+  for (const std::size_t i : indices(seen)) {
+    // Too few for the normal approximation are taken together.
+    if (expected[i] < 20) {
+      pooledSeen += seen[i];
+      pooledExpected += expected[i];
+      continue;
+    }
+    chiSquared += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
+    ++freedom;
+  }
+
+  EXPECT_GT(freedom, 7);
+  // The bound is five standard deviations of the statistic above its mean.
+  EXPECT_LT(chiSquared, freedom + 5 * std::sqrt(2.0 * freedom));
+  EXPECT_NEAR(pooledSeen, pooledExpected, 5 * std::sqrt(pooledExpected) + 5);
 }
 
 // The share of facets per solid angle whose normal has this cosine (Walter et al. 2007, eq. 33).
@@ -48,20 +94,6 @@ inline double smithG1(double alpha, double cosine) {
 // 3).
 inline double visibleDensity(double alpha, const Vec3d& view, const Vec3d& m) {
   return smithG1(alpha, view.z) * std::max(0.0, dot(view, m)) * facetsOf(alpha, m.z) / view.z;
-}
-
-// The lobe's albedo: the share of white light from all sides that it sends to the viewer, by the
-// midpoint rule over cosines and angles.
-inline double albedoByQuadrature(const Surfel& s) {
-  constexpr int kRows = 600, kColumns = 400;
-  double sum = 0;
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const double c = (row + 0.5) / kRows;
-      sum += glossyLobe(s, directionAt(c, 2 * kPi * (column + 0.5) / kColumns)).x * c;
-    }
-  }
-  return sum * 2 * kPi / (kRows * kColumns);
 }
 
 }  // namespace whit::reference

@@ -29,19 +29,22 @@ Texture noise() {
   return makeTexture(TexelFormat::color, kTexels, kTexels, texels);
 }
 
-Material glowing(SceneBuilder& builder, Texture texture) {
-  Material m = blackMaterial();
-  m.emission = Rgb(1.0f);
+// Returns a glowing floor with one texel a unit.
+Mesh glowingFloor(SceneBuilder& builder, Texture texture) {
+  Material m = emittingMaterial(1);
   m.emissionMap = builder.add(std::move(texture));
-  return m;
+  return floorAt(0, kTexels / 2.0f, builder.add(m));
 }
 
-// Returns a glowing floor with one texel a unit.
 Scene floorOf(Texture texture) {
   SceneBuilder builder;
-  const Material m = glowing(builder, std::move(texture));
-  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  builder.add(glowingFloor(builder, std::move(texture)));
   return builder.build();
+}
+
+// Returns a ray straight down; its cone has the width of a texel at a distance of 64.
+Ray rayFrom(double height, const RayCone& cone = {0, 1.0 / kTexels}, double x = 3.3) {
+  return {{x, height, 2.1}, {0, -1, 0}, cone};
 }
 
 RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
@@ -52,8 +55,8 @@ RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
   return Tracer(scene, bruteForce, settings).traceImpulse(ray, 0, 1, 0, counts);
 }
 
-// Returns the color of the floor at (x, z).
-RgbD floorColor(const Scene& scene, double x, double z, double level) {
+// Returns the color of the floor below those rays, or elsewhere.
+RgbD floorColor(const Scene& scene, double level, double x = 3.3, double z = 2.1) {
   const double half = kTexels / 2.0;
   return sampleTexture(MipMaps(scene), {0}, (x + half) / kTexels, (half - z) / kTexels, level);
 }
@@ -74,13 +77,12 @@ TEST(MipLevel, H70_ofSenselessFootprintsIsALevel) {
   EXPECT_EQ(mipLevel(infinity), kMipLevels - 1);
 
   const Scene scene = floorOf(noise());
-  const auto below = [&](double width, double spread) {
-    return seen(scene, {{3.3, 5, 2.1}, {0, -1, 0}, {width, spread}});
-  };
-  expectNear(below(0, 0), floorColor(scene, 3.3, 2.1, 0));
-  expectNear(below(-1e300, 0), floorColor(scene, 3.3, 2.1, kMipLevels - 1));
-  expectNear(below(infinity, 0), floorColor(scene, 3.3, 2.1, kMipLevels - 1));
-  expectNear(below(std::nan(""), 0), floorColor(scene, 3.3, 2.1, 0));
+  for (const auto& [width, level] : {std::pair{0.0, 0},
+                                     {-1e300, kMipLevels - 1},
+                                     {infinity, kMipLevels - 1},
+                                     {std::nan(""), 0}}) {
+    expectNear(seen(scene, rayFrom(5, {width, 0})), floorColor(scene, level));
+  }
 }
 
 TEST(Trilinear, H70_aWholeLevelIsThatLevelBitForBit) {
@@ -100,10 +102,7 @@ TEST(Trilinear, MixesDataBetweenLevels) {
   const MipMaps maps(textures, {{0}});
 
   // At the first texel's center the value is (80, 100, 200), and half of it in the next level.
-  const RgbD s = sampleTexture(maps, {0}, 0.25, 0.5, 0.5);
-  EXPECT_NEAR(s.x * 255, 60, 1e-10);
-  EXPECT_NEAR(s.y * 255, 75, 1e-10);
-  EXPECT_NEAR(s.z * 255, 150, 1e-10);
+  expectNear(sampleTexture(maps, {0}, 0.25, 0.5, 0.5) * 255, {60, 75, 150}, 1e-10);
 }
 
 TEST(RayCone, OfAPixelIsAsWideAsThePixel) {
@@ -127,11 +126,11 @@ TEST(RayCone, LevelsFollowFromTheDistance) {
   const Scene scene = floorOf(noise());
   for (const double distance : {10.0, 64.0, 128.0, 192.0, 256.0, 1024.0, 1e6}) {
     const double wanted = std::clamp(std::log2(distance / 64), 0.0, 6.0);
-    const RgbD color = floorColor(scene, 3.3, 2.1, wanted);
-    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), color, 1e-9);
+    const RgbD color = floorColor(scene, wanted);
+    expectNear(seen(scene, rayFrom(distance)), color, 1e-9);
 
     // Up to distance 64 the floor is as sharp as by lookups of level 0.
-    const RgbD full = floorColor(scene, 3.3, 2.1, 0);
+    const RgbD full = floorColor(scene, 0);
     EXPECT_EQ(distance <= 64, maxComponent(abs(full - color)) < 1e-3) << distance;
   }
 }
@@ -139,8 +138,7 @@ TEST(RayCone, LevelsFollowFromTheDistance) {
 TEST(RayCone, OfParallelRaysKeepsItsWidth) {
   const Scene scene = floorOf(noise());
   for (const double distance : {1.0, 1000.0}) {
-    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {4, 0}}),
-               floorColor(scene, 3.3, 2.1, 2));
+    expectNear(seen(scene, rayFrom(distance, {4, 0})), floorColor(scene, 2));
   }
 }
 
@@ -148,49 +146,39 @@ TEST(RayCone, OfParallelRaysKeepsItsWidth) {
 TEST(RayCone, GrowsOnSurfacesSeenAtAnAngle) {
   const Scene scene = floorOf(noise());
   const Vec3d direction = steep(60);
-  const Vec3d at{3.3, 0, 2.1};
-  expectNear(seen(scene, {at - direction * 256, direction, {0, 1.0 / 64}}),
-             floorColor(scene, at.x, at.z, 3), 1e-9);
+  expectNear(seen(scene, {Vec3d{3.3, 0, 2.1} - direction * 256, direction, {0, 1.0 / 64}}),
+             floorColor(scene, 3), 1e-9);
 }
 
 TEST(RayCone, GoesOnBehindAMirror) {
   SceneBuilder builder;
-  const Material m = glowing(builder, noise());
-  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  builder.add(glowingFloor(builder, noise()));
   builder.add(ceilingAt(100, kTexels / 2.0f, builder.add(mirrorMaterial(0.5f))));
   const Scene scene = builder.build();
-  expectNear(seen(scene, {{3.3, 72, 2.1}, {0, 1, 0}, {0, 1.0 / 64}}),
-             floorColor(scene, 3.3, 2.1, 1) * 0.5, kOffset);  // 28 + 100 units of way
+  expectNear(seen(scene, {{3.3, 72, 2.1}, {0, 1, 0}, {0, 1.0 / 64}}), floorColor(scene, 1) * 0.5,
+             kOffset);  // 28 + 100 units of way
 }
 
 TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
   SceneBuilder builder;
-  const Material m = glowing(builder, noise());
-  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  builder.add(glowingFloor(builder, noise()));
   addSlab(builder, 90, 30, builder.add(glassMaterial(1.5f)), kTexels / 2.0f);
   const Scene scene = builder.build();
 
   // Each of two surfaces reflects 4 %. Light that is reflected between them would need more depth.
-  expectNear(seen(scene, {{3.3, 128, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}, 2),
-             floorColor(scene, 3.3, 2.1, 1) * (0.96 * 0.96), kOffset);
+  expectNear(seen(scene, rayFrom(128), 2), floorColor(scene, 1) * (0.96 * 0.96), kOffset);
 }
 
 // An instance of twice the size has texels of two units, and one level less.
 TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
   SceneBuilder builder;
-  const Material m = glowing(builder, noise());
-
-  Object floor;
-  floor.meshes = {floorAt(0, kTexels / 2.0f, builder.add(m))};
-
-  builder.place(std::move(floor), {Affine::scaling(Vec3d(2)), Affine::translation({1000, 0, 0})});
+  builder.place({"floor", {glowingFloor(builder, noise())}},
+                {Affine::scaling(Vec3d(2)), Affine::translation({1000, 0, 0})});
   const Scene scene = builder.build();
   ASSERT_EQ(scene.instances.size(), 2u);
 
-  expectNear(seen(scene, {{3.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
-             floorColor(scene, 1.65, 1.05, 1), 1e-9);
-  expectNear(seen(scene, {{1003.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
-             floorColor(scene, 3.3, 2.1, 2), 1e-9);
+  expectNear(seen(scene, rayFrom(256)), floorColor(scene, 1, 1.65, 1.05), 1e-9);
+  expectNear(seen(scene, rayFrom(256, {0, 1.0 / kTexels}, 1003.3)), floorColor(scene, 2), 1e-9);
 }
 
 TEST(Trilinear, OneColorStaysWhatItIs) {
@@ -198,8 +186,7 @@ TEST(Trilinear, OneColorStaysWhatItIs) {
       TexelFormat::color, 5, 3, std::vector<std::uint32_t>(15, 300u | 17u << 10 | 1023u << 20)));
   const auto light = [](double code) { return code * code / (1023.0 * 1023.0); };
   for (const double distance : {1.0, 50.0, 777.0, 1e5}) {
-    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 0.01}}),
-               {light(300), light(17), 1});
+    expectNear(seen(scene, rayFrom(distance, {0, 0.01})), {light(300), light(17), 1});
   }
 }
 
@@ -212,7 +199,7 @@ TEST(Trilinear, ADistantChequerboardIsItsMean) {
   const Scene scene = floorOf(makeTexture(TexelFormat::color, kTexels, kTexels, texels));
   // Half of the light, up to half a code of its square root, in each of three channels.
   for (const double x : {3.3, 4.0, 4.5, 5.2}) {
-    expectNear(seen(scene, {{x, 200, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), RgbD(0.5),
+    expectNear(seen(scene, rayFrom(200, {0, 1.0 / kTexels}, x)), RgbD(0.5),
                std::sqrt(3.0) * 0.5 / 1023 * 1.5);
   }
 }

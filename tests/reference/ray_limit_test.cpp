@@ -2,7 +2,6 @@
 // every ray splits in two at every bounce.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
 
 #include "reference/sample_mean.h"
@@ -17,12 +16,10 @@ using reference::RayCounts;
 // Returns `sheets` horizontal sheets that mirror a share of the light and transmit the rest,
 // between a sky of radiance 1 above and a black one below.
 Scene pile(int sheets, float mirrored) {
-  SceneBuilder builder;
   Material sheet = mirrorMaterial(1);
   sheet.coverage = mirrored;
-  const std::uint32_t material = builder.add(sheet);
-
-  for (int i = 0; i < sheets; ++i) builder.add(floorAt(static_cast<float>(i), 10, material));
+  SceneBuilder builder = withFloor(sheet, 10);
+  for (int i = 1; i < sheets; ++i) builder.add(floorAt(static_cast<float>(i), 10, 0));
   builder.description.sky.kind = Sky::Kind::gradient;
   builder.description.sky.zenith = Rgb(1.0f);
   return builder.build();
@@ -53,58 +50,41 @@ double seenBelow(int sheets, double mirrored, int depth) {
   return up[0];
 }
 
-// Looks up from below the pile, along one ray.
-class BelowPile {
- public:
-  BelowPile(const Scene& scene, int depth, int maxRays)
-      : bruteForce_(scene), tracer_(scene, bruteForce_, settingsFor(depth, maxRays)) {
-    Camera camera;
-    camera.eye = {0.3f, -3, 0.2f};
-    camera.at = {0.3f, 0, 0.2f};
-    camera.up = {0, 0, 1};
-    camera.orthographicHeight = 1;
-    frame_ = makeCameraFrame(camera, 1, 1);
-  }
+// Looks up from below the pile, along one ray. Samples differ only in their random numbers.
+double lookUp(const Scene& scene, int depth, int maxRays, RayCounts& counts,
+              std::size_t sample = 0) {
+  reference::Settings settings = uncut(depth);
+  settings.options.maxRays = maxRays;
+  Camera camera;
+  camera.eye = {0, -3, 0};
+  camera.at = {};
+  camera.up = {0, 0, 1};
 
-  // Traces one of many samples, which differ only in their random numbers.
-  double look(std::size_t sample) {
-    counts = {};
-    return tracer_.sampled(frame_, 0, 0, {0.5f, 0.5f}, sample, counts).x;
-  }
+  const BruteForce bruteForce(scene);
+  counts = {};
+  return reference::Tracer(scene, bruteForce, settings)
+      .sampled(makeCameraFrame(camera, 1, 1), 0, 0, {0.5f, 0.5f}, sample, counts)
+      .x;
+}
 
-  std::uint64_t impulses() const {
-    return counts[RayKind::reflection] + counts[RayKind::refraction];
-  }
-
-  RayCounts counts;
-
- private:
-  static reference::Settings settingsFor(int depth, int maxRays) {
-    reference::Settings settings = uncut(depth);
-    settings.options.maxRays = maxRays;
-    return settings;
-  }
-
-  BruteForce bruteForce_;
-  reference::Tracer tracer_;
-  CameraFrame frame_;
-};
+std::uint64_t impulsesOf(const RayCounts& counts) {
+  return counts[RayKind::reflection] + counts[RayKind::refraction];
+}
 
 TEST(RayLimit, LeavesTreesOfAsManyRaysAsItAllows) {
   const Scene scene = pile(4, 0.5f);
   constexpr int kDepth = 11;
-  BelowPile whole(scene, kDepth, 0);
-  const double value = whole.look(0);
+  RayCounts counts;
+  const double value = lookUp(scene, kDepth, 0, counts);
   EXPECT_NEAR(value, seenBelow(4, 0.5, kDepth), 1e-12);
-  const auto size = static_cast<int>(whole.impulses());
+  const auto size = static_cast<int>(impulsesOf(counts));
   ASSERT_GT(size, 300);
 
-  BelowPile just(scene, kDepth, size), less(scene, kDepth, size - 1);
-  EXPECT_EQ(just.look(0), value);
-  EXPECT_EQ(just.impulses(), whole.impulses());
-  EXPECT_EQ(just.counts.limitedSamples, 0u);
-  EXPECT_NE(less.look(0), value);
-  EXPECT_EQ(less.counts.limitedSamples, 1u);
+  EXPECT_EQ(lookUp(scene, kDepth, size, counts), value);
+  EXPECT_EQ(impulsesOf(counts), static_cast<unsigned>(size));
+  EXPECT_EQ(counts.limitedSamples, 0u);
+  EXPECT_NE(lookUp(scene, kDepth, size - 1, counts), value);
+  EXPECT_EQ(counts.limitedSamples, 1u);
 }
 
 TEST(RayLimit, BoundsTheRaysAndKeepsTheMean) {
@@ -113,13 +93,13 @@ TEST(RayLimit, BoundsTheRaysAndKeepsTheMean) {
   for (const float mirrored : {0.5f, 0.2f, 0.8f}) {
     const Scene scene = pile(8, mirrored);
     for (const int maxRays : {1, 200}) {
-      BelowPile pixel(scene, kDepth, maxRays);
-      SampleMean mean;
-      for (std::size_t sample = 0; sample < kSamples; ++sample) {
-        mean.add(pixel.look(sample));
-        ASSERT_LE(pixel.impulses(), static_cast<unsigned>(std::max(maxRays, kDepth)));
-        ASSERT_EQ(pixel.counts.limitedSamples, 1u);
-      }
+      RayCounts counts;
+      const SampleMean mean = meanOf(kSamples, [&](auto sample) {
+        const double seen = lookUp(scene, kDepth, maxRays, counts, sample);
+        EXPECT_LE(impulsesOf(counts), static_cast<unsigned>(std::max(maxRays, kDepth)));
+        EXPECT_EQ(counts.limitedSamples, 1u);
+        return seen;
+      });
 
       // 4.5 standard errors: one comparison in 150,000 would fail by chance.
       EXPECT_NEAR(mean.value(), seenBelow(8, double{mirrored}, kDepth), 4.5 * mean.error())

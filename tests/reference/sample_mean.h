@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace whit::test {
 
@@ -26,5 +27,13 @@ class SampleMean {
   std::size_t count_ = 0;
   double mean_ = 0, squares_ = 0;
 };
+
+// Returns the mean of sample(path) over the paths of these numbers.
+template <typename Sample>
+SampleMean meanOf(std::uint32_t paths, const Sample& sample) {
+  SampleMean mean;
+  for (std::uint32_t path = 0; path < paths; ++path) mean.add(sample(path));
+  return mean;
+}
 
 }  // namespace whit::test

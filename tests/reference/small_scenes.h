@@ -32,6 +32,41 @@ inline reference::Settings uncut(int depth = 8) {
   return settings;
 }
 
+// Likewise with so many rays for the lobes of the first surface.
+inline reference::Settings sampled(int glossy, int depth = 8) {
+  reference::Settings settings = uncut(depth);
+  settings.options.glossy = glossy;
+  return settings;
+}
+
+inline EffectSet allBut(Effect effect) { return EffectSet::all().without(effect); }
+
+// Returns the settings without an effect.
+inline reference::Settings without(Effect effect, reference::Settings settings = uncut()) {
+  settings.effects = settings.effects.without(effect);
+  return settings;
+}
+
+// Returns the builder of a floor at height 0, 2 * half wide.
+inline SceneBuilder withFloor(const Material& material, float half = 1) {
+  SceneBuilder builder;
+  builder.add(floorAt(0, half, builder.add(material)));
+  return builder;
+}
+
+// Returns the same floor under a sky of one radiance, or lit by lights.
+inline Scene floorUnderSky(const Material& material, float radiance = 1, float half = 1000) {
+  SceneBuilder builder = withFloor(material, half);
+  builder.sky(radiance);
+  return builder.build();
+}
+inline Scene litFloor(const Material& material, const std::vector<Light>& lights,
+                      float half = 100) {
+  SceneBuilder builder = withFloor(material, half);
+  builder.description.lights = lights;
+  return builder.build();
+}
+
 // Returns the radiance that the reference computes along a ray by brute force. `direction` has any
 // length.
 inline RgbD radianceAlong(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
@@ -41,6 +76,13 @@ inline RgbD radianceAlong(const Scene& scene, const Vec3d& origin, const Vec3d& 
   const reference::Tracer tracer(scene, bruteForce, settings);
   reference::RayCounts own;
   return tracer.traceImpulse({origin, normalized(direction)}, 0, 1.0, 0, counts ? *counts : own);
+}
+
+// Likewise straight down.
+inline RgbD radianceBelow(const Scene& scene, const Vec3d& eye = {0, 1, 0},
+                          const reference::Settings& settings = uncut(),
+                          reference::RayCounts* counts = nullptr) {
+  return radianceAlong(scene, eye, {0, -1, 0}, settings, counts);
 }
 
 }  // namespace whit::test

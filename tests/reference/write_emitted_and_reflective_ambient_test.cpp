@@ -5,68 +5,67 @@
 
 #include <cmath>
 
-#include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
 namespace {
 
-using test::SceneBuilder;
+using namespace test;
 
-TEST(Ambient, FollowsTheNormal) {
+// Returns a scene of one material, without geometry.
+Scene lit(const Ambient& ambient) {
   Scene scene;
   scene.materials.resize(1);
-  scene.ambient = {Rgb(3.0f), Rgb(1.0f)};
+  scene.ambient = ambient;
+  return scene;
+}
+
+TEST(Ambient, FollowsTheNormal) {
+  const Scene scene = lit({Rgb(3.0f), Rgb(1.0f)});
   Surfel s;
   s.diffuse = {1, 0.5, 0};
 
-  const EffectSet direct = EffectSet::all().without(Effect::indirect);
-  s.shadingNormal = {0, 1, 0};
-  EXPECT_EQ(emittedAndAmbient(scene, direct, s), RgbD(3, 1.5, 0));
-  s.shadingNormal = {0, -1, 0};
-  EXPECT_EQ(emittedAndAmbient(scene, direct, s), RgbD(1, 0.5, 0));
-  s.shadingNormal = {1, 0, 0};
-  EXPECT_EQ(emittedAndAmbient(scene, direct, s), RgbD(2, 1, 0));
-  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::ambient), s), RgbD());
+  for (const auto& [normal, ambient] :
+       {std::pair{Vec3d(0, 1, 0), 3.0}, {Vec3d(0, -1, 0), 1.0}, {Vec3d(1, 0, 0), 2.0}}) {
+    s.shadingNormal = normal;
+    EXPECT_EQ(emittedAndAmbient(scene, allBut(Effect::indirect), s), s.diffuse * ambient);
+  }
+  EXPECT_EQ(emittedAndAmbient(scene, allBut(Effect::ambient), s), RgbD());
 }
 
 TEST(Emission, AddsToTheRest) {
-  Scene scene;
-  scene.materials.resize(1);
+  Scene scene = lit({Rgb(1.0f), Rgb(1.0f)});
   scene.materials[0].emission = {1, 2, 3};
   Surfel s;
-  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(1, 2, 3));
-  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::emission), s), RgbD());
+  s.diffuse = RgbD(0.5);
+  EXPECT_EQ(emittedAndAmbient(scene, allBut(Effect::indirect), s), RgbD(1.5, 2.5, 3.5));
+  s.diffuse = {};
+  EXPECT_EQ(emittedAndAmbient(scene, allBut(Effect::emission), s), RgbD());
 }
 
 TEST(Sky, NeedsItsEffects) {
-  SceneBuilder builder;
-  builder.sky(2);
-  const Scene plain = builder.build();
-  EXPECT_EQ(skyAlong(plain, EffectSet::all(), {0, 1, 0}), RgbD(2.0));
-  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD(2.0));
-  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::sky), {0, 1, 0}), RgbD());
+  SceneBuilder color, image;
+  color.sky(2);
+  image.description.sky.kind = Sky::Kind::image;
+  image.description.sky.image = {1, 1, {1}, {2}, {3}};
+  const Scene plain = color.build(), pictured = image.build();
 
-  SceneBuilder withImage;
-  withImage.description.sky.kind = Sky::Kind::image;
-  withImage.description.sky.image = {1, 1, {1}, {2}, {3}};
-  const Scene image = withImage.build();
-  EXPECT_EQ(skyAlong(image, EffectSet::all(), {0, 1, 0}), RgbD(1, 2, 3));
-  EXPECT_EQ(skyAlong(image, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD());
+  const Vec3d up{0, 1, 0};
+  EXPECT_EQ(skyAlong(plain, allBut(Effect::skyImage), up), RgbD(2.0));
+  EXPECT_EQ(skyAlong(plain, allBut(Effect::sky), up), RgbD());
+  EXPECT_EQ(skyAlong(pictured, EffectSet::all(), up), RgbD(1, 2, 3));
+  EXPECT_EQ(skyAlong(pictured, allBut(Effect::skyImage), up), RgbD());
 }
 
 // White light from all sides: a lobe takes from the diffuse color what it reflects, so that no
 // surface is brighter than the light; metals reflect their lobe's albedo.
 TEST(BlurredSky, IsReflectedByRoughSurfaces) {
-  Scene scene;
-  scene.materials.resize(1);
+  Scene scene = lit({Rgb(1.0f), Rgb(1.0f)});
   scene.materials[0].specular = Rgb(1.0f);
-  scene.ambient = {Rgb(1.0f), Rgb(1.0f)};
   scene.sky.kind = Sky::Kind::color;
   scene.sky.zenith = Rgb(1.0f);
   scene.blurredSky = blurredSky(scene.sky);
-  const EffectSet effects =
-      EffectSet::all().without(Effect::indirect).without(Effect::glossyReflection);
+  const EffectSet effects = allBut(Effect::indirect).without(Effect::glossyReflection);
 
   Surfel s;
   s.shadingNormal = {0, 1, 0};
@@ -95,28 +94,6 @@ TEST(BlurredSky, IsReflectedByRoughSurfaces) {
       << "under the mirror";
   scene.materials[0].glossyReflection = false;
   EXPECT_EQ(emittedAndAmbient(scene, effects, s), s.diffuse) << "the mirror shows the scene";
-}
-
-TEST(AmbientReference, TellsSkySurfelsAndHiddenOnesApart) {
-  SceneBuilder builder;
-  builder.sky(2);
-  Material glowing = test::blackMaterial();
-  glowing.emission = {1, 2, 3};
-  const auto material = builder.add(glowing);
-  builder.add(test::floorAt(0, 1, material));
-  const Scene scene = builder.build();
-  test::SmallChunk small(scene, FeatureSet::all().without(Feature::emissionFactors));
-  test::setRay(small.chunk.rays, 0, {0, 1, 0}, {0, -1, 0});
-
-  const auto blue = [&](std::uint32_t found, std::uint32_t flags) {
-    small.chunk.surfels.material[0] = found;
-    small.chunk.surfels.flags[0] = flags;
-    return writeEmittedAndReflectiveAmbient(small.world, small.chunk, 0).rgb.z;
-  };
-
-  EXPECT_EQ(blue(kMiss, 0), 2);
-  EXPECT_EQ(blue(scene.triangles[0].material, kEntering), 3);
-  EXPECT_EQ(blue(scene.triangles[0].material, kEntering | kHidden), 0);
 }
 
 }  // namespace

@@ -63,17 +63,29 @@ class MapParameters : public ShapeParameters {
   std::set<std::string> asked_;
 };
 
-inline Shape generate(const std::string& name, std::map<std::string, Value> values = {}) {
+// Calls the generator of this name. The parameters are all that it may ask for.
+template <typename Generators>
+auto madeBy(const Generators& generators, const std::string& name,
+            std::map<std::string, Value> values) {
   MapParameters parameters(std::move(values));
-  Shape shape = shapeGenerators().at(name)(parameters);
+  auto made = generators.at(name)(parameters);
   if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
-  return shape;
+  return made;
+}
+
+inline Shape generate(const std::string& name, std::map<std::string, Value> values = {}) {
+  return madeBy(shapeGenerators(), name, std::move(values));
+}
+
+// Returns the mesh of a shape that has no other part.
+inline Mesh meshOf(const std::string& name, std::map<std::string, Value> values = {}) {
+  const Shape shape = generate(name, std::move(values));
+  if (shape.parts.size() != 1) throwBadScene(name, "several parts");
+  return shape.parts[0].mesh;
 }
 
 inline Texture paint(const std::string& name, std::map<std::string, Value> values = {}) {
-  MapParameters parameters(std::move(values));
-  Texture texture = patternGenerators().at(name)(parameters);
-  if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
+  Texture texture = madeBy(patternGenerators(), name, std::move(values));
   texture.texels = texture.shared->make();
   return texture;
 }

@@ -45,34 +45,22 @@ inline PositionBits bits(const Vec3f& p) {
   return b;
 }
 
-// Counts the edges, by the bits of their ends, that triangles do not traverse equally often in both
-// directions. A closed mesh has none, and neither has one whose solids touch along an edge.
-inline std::size_t openEdges(const Mesh& mesh) {
-  std::map<std::pair<PositionBits, PositionBits>, int> balance;
+struct EdgeUse {
+  int triangles = 0, balance = 0;  // those that traverse it one way less those of the other way
+};
+
+// Returns the edges by the bits of their ends.
+inline auto edgesOf(const Mesh& mesh) {
+  std::map<std::pair<PositionBits, PositionBits>, EdgeUse> edges;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const PositionBits a = bits(mesh.positions[t[k]]), b = bits(mesh.positions[t[(k + 1) % 3]]);
-      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+      EdgeUse& use = edges[std::minmax(a, b)];
+      ++use.triangles;
+      use.balance += a < b ? 1 : -1;
     }
   }
-
-  std::size_t open = 0;
-  for (const auto& [edge, count] : balance) open += count != 0;
-  return open;
-}
-
-// Counts the edges that are not shared by exactly two triangles.
-inline std::size_t unpairedEdges(const Mesh& mesh) {
-  std::map<std::pair<PositionBits, PositionBits>, int> uses;
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      ++uses[std::minmax(bits(mesh.positions[t[k]]), bits(mesh.positions[t[(k + 1) % 3]]))];
-    }
-  }
-
-  std::size_t unpaired = 0;
-  for (const auto& [edge, count] : uses) unpaired += count != 2;
-  return unpaired;
+  return edges;
 }
 
 }  // namespace whit::test

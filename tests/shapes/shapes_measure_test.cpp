@@ -15,72 +15,66 @@ constexpr double kFloat = 2e-6;
 // Returns the area of the regular n-gon over that of its circumscribed circle.
 double polygonShare(int n) { return n / (2 * kPi) * std::sin(2 * kPi / n); }
 
-const Mesh& only(const Shape& shape) {
-  EXPECT_EQ(shape.parts.size(), 1u);
-  EXPECT_EQ(shape.parts[0].slot, "surface");
-  return shape.parts[0].mesh;
-}
-
 TEST(Measures, SpheresApproachTheirVolumeAndArea) {
-  const Shape shape = generate("sphere", {{"radius", 2.0}, {"segments", 128.0}});
+  const Mesh shape = meshOf("sphere", {{"radius", 2.0}, {"segments", 128.0}});
   const double miss = 3 * 2 * kPi * kPi / (3 * 128.0 * 128.0);  // three directions of curvature
 
-  EXPECT_NEAR(volume(only(shape)) / (4.0 / 3 * kPi * 8), 1, miss);
-  EXPECT_LT(volume(only(shape)), 4.0 / 3 * kPi * 8);
-  EXPECT_NEAR(area(only(shape)) / (4 * kPi * 4), 1, miss);
+  EXPECT_NEAR(volume(shape) / (4.0 / 3 * kPi * 8), 1, miss);
+  EXPECT_LT(volume(shape), 4.0 / 3 * kPi * 8);
+  EXPECT_NEAR(area(shape) / (4 * kPi * 4), 1, miss);
 
   // There are two fans at the poles, and two triangles a cell between them.
-  EXPECT_EQ(only(shape).triangles.size(), 128u * (2 * 62 + 2));
+  EXPECT_EQ(shape.triangles.size(), 128u * (2 * 62 + 2));
 }
 
 TEST(Measures, IcospheresQuadrupleTheirTriangles) {
   for (int level = 0; level < 5; ++level) {
-    const Shape shape = generate("icosphere", {{"level", static_cast<double>(level)}});
-    EXPECT_EQ(only(shape).triangles.size(), 20u << (2 * level));
+    const Mesh shape = meshOf("icosphere", {{"level", static_cast<double>(level)}});
+    EXPECT_EQ(shape.triangles.size(), 20u << (2 * level));
   }
 
   // The icosahedron in the unit sphere has the volume (5/12)(3 + sqrt 5) a^3, where
   // a = 1 / sin(2 pi / 5).
   const double edge = 1 / std::sin(2 * kPi / 5);
-  EXPECT_NEAR(volume(only(generate("icosphere", {{"level", 0.0}}))),
+  EXPECT_NEAR(volume(meshOf("icosphere", {{"level", 0.0}})),
               5.0 / 12 * (3 + std::sqrt(5.0)) * edge * edge * edge, 10 * kFloat);
 }
 
 TEST(Measures, PrismsAreExactForTheirPolygon) {
   const double n = 24, share = polygonShare(24);
-  const Shape cylinder = generate("cylinder", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
-  EXPECT_NEAR(volume(only(cylinder)) / (kPi * 2.25 * 3 * share), 1, kFloat);
+  const Mesh cylinder = meshOf("cylinder", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
+  EXPECT_NEAR(volume(cylinder) / (kPi * 2.25 * 3 * share), 1, kFloat);
 
-  const Shape cone = generate("cone", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
-  EXPECT_NEAR(volume(only(cone)) / (kPi * 2.25 * share), 1, kFloat);
+  const Mesh cone = meshOf("cone", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
+  EXPECT_NEAR(volume(cone) / (kPi * 2.25 * share), 1, kFloat);
 
-  const Shape disc = generate("disc", {{"radius", 2.0}, {"segments", n}});
-  EXPECT_NEAR(area(only(disc)) / (kPi * 4 * share), 1, kFloat);
+  const Mesh disc = meshOf("disc", {{"radius", 2.0}, {"segments", n}});
+  EXPECT_NEAR(area(disc) / (kPi * 4 * share), 1, kFloat);
 }
 
 TEST(Measures, TorusFollowsPappus) {
-  const Shape shape = generate(
+  const Mesh shape = meshOf(
       "torus", {{"radius", 2.0}, {"tubeRadius", 0.5}, {"segments", 200.0}, {"rings", 100.0}});
   const double miss = 2 * kPi * kPi / 3 * (1 / 1e4 + 3 / 4e4);
-  EXPECT_NEAR(volume(only(shape)) / (2 * kPi * kPi * 2 * 0.25), 1, miss);
-  EXPECT_NEAR(area(only(shape)) / (4 * kPi * kPi * 2 * 0.5), 1, miss);
+  EXPECT_NEAR(volume(shape) / (2 * kPi * kPi * 2 * 0.25), 1, miss);
+  EXPECT_NEAR(area(shape) / (4 * kPi * kPi * 2 * 0.5), 1, miss);
 }
 
 TEST(Measures, BoxesAndSheetsAreExact) {
-  const Shape box = generate("box", {{"size", Vec3d{1, 2, 3}}});
-  EXPECT_NEAR(volume(only(box)), 6, 6 * kFloat);
-  EXPECT_NEAR(area(only(box)), 22, 22 * kFloat);
-  EXPECT_EQ(only(box).triangles.size(), 12u);
+  const Mesh box = meshOf("box", {{"size", Vec3d{1, 2, 3}}});
+  EXPECT_NEAR(volume(box), 6, 6 * kFloat);
+  EXPECT_NEAR(area(box), 22, 22 * kFloat);
+  EXPECT_EQ(box.triangles.size(), 12u);
 
-  const Shape quad = generate("quad", {{"width", 3.0}, {"depth", 2.0}});
-  EXPECT_NEAR(area(only(quad)), 6, 6 * kFloat);
-  EXPECT_GT(areaVector(only(quad), 0).y, 0) << "faces up";
+  const Mesh quad = meshOf("quad", {{"width", 3.0}, {"depth", 2.0}});
+  EXPECT_NEAR(area(quad), 6, 6 * kFloat);
+  EXPECT_GT(areaVector(quad, 0).y, 0) << "faces up";
 }
 
 TEST(Measures, RoundedBoxFollowsSteiner) {
   const double r = 0.2;
   const Vec3d size{1, 2, 3}, core = size - Vec3d(2 * r);
-  const Shape shape = generate("roundedBox", {{"size", size}, {"radius", r}, {"steps", 12.0}});
+  const Mesh shape = meshOf("roundedBox", {{"size", size}, {"radius", r}, {"steps", 12.0}});
 
   // Steiner's formula gives the volume of a box grown by r.
   const double faces = core.x * core.y + core.y * core.z + core.z * core.x;
@@ -88,55 +82,55 @@ TEST(Measures, RoundedBoxFollowsSteiner) {
   const double exact =
       core.x * core.y * core.z + 2 * faces * r + kPi * edges * r * r + 4.0 / 3 * kPi * r * r * r;
 
-  EXPECT_NEAR(volume(only(shape)), exact, 0.003 * exact);
-  EXPECT_LT(volume(only(shape)), exact);
+  EXPECT_NEAR(volume(shape), exact, 0.003 * exact);
+  EXPECT_LT(volume(shape), exact);
 }
 
 TEST(Measures, StairsFillTheirProfile) {
-  const Shape shape =
-      generate("stairs", {{"steps", 4.0}, {"rise", 0.2}, {"run", 0.3}, {"width", 2.0}});
-  EXPECT_NEAR(volume(only(shape)), 2 * 0.2 * 0.3 * (1 + 2 + 3 + 4), kFloat * 4);
+  const Mesh shape =
+      meshOf("stairs", {{"steps", 4.0}, {"rise", 0.2}, {"run", 0.3}, {"width", 2.0}});
+  EXPECT_NEAR(volume(shape), 2 * 0.2 * 0.3 * (1 + 2 + 3 + 4), kFloat * 4);
 }
 
 TEST(Measures, WallsAreTheirBoxLessTheOpenings) {
   const double n = 64;
-  const Shape shape = generate("wall", {{"spacing", 3.0},
-                                        {"bays", 4.0},
-                                        {"height", 5.0},
-                                        {"depth", 0.5},
-                                        {"openingWidth", 2.0},
-                                        {"spring", 2.5},
-                                        {"sill", 0.5},
-                                        {"segments", n}});
+  const Mesh shape = meshOf("wall", {{"spacing", 3.0},
+                                     {"bays", 4.0},
+                                     {"height", 5.0},
+                                     {"depth", 0.5},
+                                     {"openingWidth", 2.0},
+                                     {"spring", 2.5},
+                                     {"sill", 0.5},
+                                     {"segments", n}});
 
   const double opening = 2 * 2.0 + kPi / 2 * polygonShare(128);
-  EXPECT_NEAR(volume(only(shape)), 0.5 * (12 * 5 - 4 * opening), 60 * kFloat);
+  EXPECT_NEAR(volume(shape), 0.5 * (12 * 5 - 4 * opening), 60 * kFloat);
 }
 
 TEST(Measures, ArchIsHalfARing) {
-  const Shape shape =
-      generate("arch", {{"width", 2.0}, {"thickness", 0.5}, {"depth", 0.4}, {"segments", 50.0}});
-  EXPECT_NEAR(volume(only(shape)), 0.4 * kPi / 2 * (2.25 - 1) * polygonShare(100), 4 * kFloat);
+  const Mesh shape =
+      meshOf("arch", {{"width", 2.0}, {"thickness", 0.5}, {"depth", 0.4}, {"segments", 50.0}});
+  EXPECT_NEAR(volume(shape), 0.4 * kPi / 2 * (2.25 - 1) * polygonShare(100), 4 * kFloat);
 }
 
 TEST(Measures, GroinVaultMeetsItsBarrels) {
-  const Shape shape = generate("vault", {{"width", 4.0}, {"depth", 4.0}, {"segments", 64.0}});
+  const Mesh shape = meshOf("vault", {{"width", 4.0}, {"depth", 4.0}, {"segments", 64.0}});
 
   // A quarter of the square shows the strip |x| < z of a half cylinder of radius a, whose area is
   // the integral of 2 a asin(z / a) over [0, a], 2 a^2 (pi / 2 - 1).
   const double a = 2;
-  EXPECT_NEAR(area(only(shape)) / (8 * a * a * (kPi / 2 - 1)), 1, 0.01);
+  EXPECT_NEAR(area(shape) / (8 * a * a * (kPi / 2 - 1)), 1, 0.01);
 
-  for (std::size_t t = 0; t < only(shape).triangles.size(); ++t) {
-    ASSERT_LE(areaVector(only(shape), t).y, 1e-9) << "seen from below";
+  for (const std::size_t t : indices(shape.triangles)) {
+    ASSERT_LE(areaVector(shape, t).y, 1e-9) << "seen from below";
   }
 }
 
 TEST(Measures, SphereNormalsPointAwayFromTheCenter) {
-  const Shape shape = generate("sphere", {{"radius", 3.0}, {"segments", 64.0}});
-  for (std::size_t k = 0; k < only(shape).positions.size(); ++k) {
-    const Vec3d out = normalized(Vec3d(only(shape).positions[k]));
-    EXPECT_NEAR(dot(out, Vec3d(only(shape).normals[k])), 1, kFloat);
+  const Mesh shape = meshOf("sphere", {{"radius", 3.0}, {"segments", 64.0}});
+  for (const std::size_t k : indices(shape.positions)) {
+    const Vec3d out = normalized(Vec3d(shape.positions[k]));
+    EXPECT_NEAR(dot(out, Vec3d(shape.normals[k])), 1, kFloat);
   }
 }
 
@@ -144,16 +138,12 @@ TEST(Measures, ColumnsStandBetweenFloorAndHeight) {
   const Shape shape = generate("column", {{"height", 5.0}, {"radius", 0.4}, {"flutes", 16.0}});
   ASSERT_EQ(shape.parts.size(), 2u);
 
-  float low = 1e9f, high = -1e9f;
+  Box bounds;
   for (const ShapePart& part : shape.parts) {
-    for (const Vec3f& p : part.mesh.positions) {
-      low = std::min(low, p.y);
-      high = std::max(high, p.y);
-    }
+    for (const Vec3f& p : part.mesh.positions) bounds.add(p);
   }
-
-  EXPECT_EQ(low, 0);
-  EXPECT_EQ(high, 5);
+  EXPECT_EQ(bounds.lower.y, 0);
+  EXPECT_EQ(bounds.upper.y, 5);
 }
 
 }  // namespace
