@@ -193,8 +193,8 @@ TEST_F(Serving, OnlyThoseWithTheTokenAreAnswered) {
   std::string wrong = root_;
   wrong[5] ^= 1;
   for (const std::string& path :
-       {std::string("/"), wrong, root_.substr(0, 32), wrong + "stream", std::string("/etc/passwd"),
-        "/" + root_, root_.substr(0, 20) + "/", std::string("/../../etc/passwd")}) {
+       std::vector<std::string>{"/", wrong, root_.substr(0, 32), wrong + "stream", "/etc/passwd",
+                                "/" + root_, root_.substr(0, 20) + "/", "/../../etc/passwd"}) {
     EXPECT_EQ(status(path), 403) << path;
   }
 }
@@ -693,11 +693,11 @@ TEST_F(Serving, StrangersDoNotDisplaceAPage) {
 
 TEST_F(Serving, GarbageEndsItsOwnConnectionOnly) {
   for (const std::string& bytes :
-       {std::string("\0\0\0\0\r\n\r\n", 8), std::string("GET\r\n\r\n"), std::string(5000, '\xff'),
-        std::string("GET / HTTP/9.9\r\n\r\n"), std::string("\r\n\r\n\r\n"),
-        std::string("POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"),
-        std::string("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\nx"),
-        std::string("GET /%zz HTTP/1.1\r\nHost: \xff\r\n\r\n")}) {
+       std::vector<std::string>{std::string("\0\0\0\0\r\n\r\n", 8), "GET\r\n\r\n",
+                                std::string(5000, '\xff'), "GET / HTTP/9.9\r\n\r\n", "\r\n\r\n\r\n",
+                                "POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+                                "POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\nx",
+                                "GET /%zz HTTP/1.1\r\nHost: \xff\r\n\r\n"}) {
     const int socket = connection();
     send(socket, bytes);
     ::shutdown(socket, SHUT_WR);
