@@ -33,7 +33,7 @@ OUT = BUILD / "measured"
 PICTURES = ROOT / "scenes/pictures"
 SPEED_PAGE, ACCURACY_PAGE = "tests/bench/README.md", "src/accuracy/README.md"
 
-FRAME = ["--depth", "8", "--floor", "--frames", "20"]
+FRAME = "--depth 8 --floor --frames 20"
 SIZES = ["480x300", "1280x720"]
 FRAME_SCENES = ["sponza-mirror", "atrium", "landscape", "whitted"]
 CHOICE_SCENES = ["sponza-mirror", "atrium"]
@@ -48,8 +48,6 @@ SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
 TRANSPORTED = ["atrium", "whitted", "glass", "sponza-mirror"]
 TRANSPORT_SIZE, TRANSPORT_BUDGET = "96x60", "20"
 HASHED_SIZES = ["480x300", "48x30"]
-STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
-          "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
 
 
 def complain(text):
@@ -62,9 +60,12 @@ def has_sponza():
 
 def here(scenes):
     """Those scenes whose files are here."""
-    if has_sponza():
-        return scenes
-    return [scene for scene in scenes if scene != "sponza-mirror"]
+    return [scene for scene in scenes if scene != "sponza-mirror" or has_sponza()]
+
+
+def all_here(scenes):
+    """The same as words of a command line."""
+    return " ".join(here(scenes))
 
 
 def run(words, **options):
@@ -73,8 +74,8 @@ def run(words, **options):
                           stdout=subprocess.PIPE, **options).stdout
 
 
-def bench(*words):
-    return json.loads(run([BUILD / "whit", "bench", *words, "--json", "-", "--quiet"]))
+def bench(line):
+    return json.loads(run([BUILD / "whit", "bench", *line.split(), "--json", "-", "--quiet"]))
 
 
 def keep(name, data):
@@ -98,33 +99,31 @@ def measure_choices():
         for turn in range(ROUNDS):
             for choice in ["", *CHOICES, ""]:
                 frames = "2" if "reference" in choice else "10"
-                parts.append((bench(scene, "--size", "480x300", "--depth", "8", "--frames", frames,
-                                    *choice.split()), {"choice": choice, "turn": turn}))
+                parts.append((bench(f"{scene} --size 480x300 --depth 8 --frames {frames} {choice}"),
+                              {"choice": choice, "turn": turn}))
     keep("choices.json", merged(parts))
 
 
 def measure_spheres():
     """Exact ones and triangles in turn; and POV-Ray's."""
     keep("spheres.json",
-         merged([(bench("whitted", "--size", "480x300", "--depth", "8", "--frames", "9",
-                        "--sphere-segments", segments), {"segments": segments})
+         merged([(bench("whitted --size 480x300 --depth 8 --frames 9 "
+                        f"--sphere-segments {segments}"), {"segments": segments})
                  for _ in range(ROUNDS) for segments in SEGMENTS]))
 
 
 def measure_speed():
     for size in SIZES:
-        keep(f"frames-{size}.json", bench(*here(FRAME_SCENES), "--size", size, *FRAME))
-    keep("widths.json",
-         merged([(bench(scene, "--size", "480x300", *FRAME, "--widths"), {})
-                 for scene in here(CHOICE_SCENES)]))
+        keep(f"frames-{size}.json", bench(f"{all_here(FRAME_SCENES)} --size {size} {FRAME}"))
+    keep("widths.json", merged([(bench(f"{scene} --size 480x300 {FRAME} --widths"), {})
+                                for scene in here(CHOICE_SCENES)]))
     measure_choices()
-    keep("effects-kernels.json",
-         bench("matte", "--ab-effects", "--size", "480x300", "--frames", "40"))
+    keep("effects-kernels.json", bench("matte --ab-effects --size 480x300 --frames 40"))
     keep("triangles.json",
-         merged([(bench(f"landscape?triangles={n}", "--size", "480x300", "--frames", "5"), {})
+         merged([(bench(f"landscape?triangles={n} --size 480x300 --frames 5"), {})
                  for n in TRIANGLES]))
     keep("long-paths.json",
-         merged([(bench(*here(LONG_PATHS), "--size", "480x300", "--frames", "3", "--cutoff", cutoff),
+         merged([(bench(f"{all_here(LONG_PATHS)} --size 480x300 --frames 3 --cutoff {cutoff}"),
                   {"cutoff": cutoff}) for cutoff in CUTOFFS]))
     measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
@@ -133,7 +132,7 @@ def measure_speed():
 def measure_avx2():
     for size in SIZES:
         keep(f"frames-avx2-{size}.json",
-             bench(*here(FRAME_SCENES), "--size", size, *FRAME, "--simd", "avx2"))
+             bench(f"{all_here(FRAME_SCENES)} --size {size} {FRAME} --simd avx2"))
 
 
 def measure_accuracy():
@@ -146,7 +145,7 @@ def measure_accuracy():
             complain(f"{scene}: whit compare ends with {error.returncode}")
             text = error.stdout
         compared.append({"scene": scene, **json.loads(text)})
-    keep("compare.json", {"machine": bench("matte", "--size", "8x8", "--frames", "1")["machine"],
+    keep("compare.json", {"machine": bench("matte --size 8x8 --frames 1")["machine"],
                           "runs": compared})
     run([BUILD / "whit", "accuracy", *here(SWEPT), "--out", OUT / "accuracy", "--quiet"])
 
@@ -154,7 +153,7 @@ def measure_accuracy():
 def measure_transport():
     run([BUILD / "whit", "accuracy", *here(TRANSPORTED), "--truth", "transport", "--size",
          TRANSPORT_SIZE, "--time-budget", TRANSPORT_BUDGET, "--out", OUT / "transport", "--quiet"])
-    keep("transport.json", bench("matte", "--size", "8x8", "--frames", "1"))
+    keep("transport.json", bench("matte --size 8x8 --frames 1"))
 
 
 # Tables.
@@ -177,14 +176,19 @@ def scene_of(row):
     return row["scene"].split("/")[-1].removesuffix(".json")
 
 
+def scenes_of(rows):
+    return list(dict.fromkeys(scene_of(r) for r in rows))
+
+
 def million_rays(row):
     return sum(row["rays"].values()) / 1e6
 
 
 def frame_table(data):
     runs = data["runs"]
-    cells = [[f"`{stage}`"] + [number(r["stages_ms"][stage], 2) for r in runs] for stage in STAGES]
-    cells += [["**" + "frame" + "**"] + ["**" + number(r["frame_ms"]["median"]) + "**" for r in runs]]
+    cells = [[f"`{stage}`"] + [number(r["stages_ms"][stage], 2) for r in runs]
+             for stage in runs[0]["stages_ms"]]
+    cells.append(["**frame**"] + ["**" + number(r["frame_ms"]["median"]) + "**" for r in runs])
     for name, value in [
             ("95 % of the frames within", lambda r: number(r["frame_ms"]["p95"])),
             ("Embree alone, same rays", lambda r: number(r["floor_ms"])),
@@ -198,7 +202,7 @@ def frame_table(data):
 
 
 def width_table(data):
-    scenes = list(dict.fromkeys(scene_of(r) for r in data["runs"]))
+    scenes = scenes_of(data["runs"])
     rows = []
     for packet in sorted({r["packet"] for r in data["runs"]}):
         rows.append([str(packet)])
@@ -210,7 +214,7 @@ def width_table(data):
 
 
 def choice_table(data):
-    scenes = list(dict.fromkeys(scene_of(r) for r in data["runs"]))
+    scenes = scenes_of(data["runs"])
 
     def ratio(scene, choice):
         ratios = []
@@ -301,15 +305,9 @@ def value(row, column):
     return float(row[column]) if row and row[column] else None
 
 
-def sweep_scenes(rows):
-    return list(dict.fromkeys(scene_of(r) for r in rows))
-
-
 def find(rows, scene, knob, wanted):
-    for row in rows:
-        if scene_of(row) == scene and row["knob"] == knob and row["value"] == wanted:
-            return row
-    return None
+    return next((row for row in rows if scene_of(row) == scene and row["knob"] == knob
+                 and row["value"] == wanted), None)
 
 
 def baseline(rows, scene):
@@ -342,7 +340,7 @@ def preset_table(rows):
                 if row else "")
     names = ["standard", "reference"]
     cells = []
-    for scene in sweep_scenes(rows):
+    for scene in scenes_of(rows):
         row, eight = baseline(rows, scene), find(rows, scene, "depth", "8")
         cells.append([scene, *(preset(scene, name) for name in names),
                       f"{value(row, 'same_samples_ge2_pct'):.3f} %",
@@ -357,7 +355,7 @@ def preset_table(rows):
 def adaptive_table(rows):
     """A row a scene, with the contrasts side by side."""
     cells = []
-    for scene in sweep_scenes(rows):
+    for scene in scenes_of(rows):
         all16 = find(rows, scene, "spp", "16")
         found = {contrast: find(rows, scene, *knob) for contrast, knob in
                  [("4", ("contrast", "4")), ("8", ("adaptive", "on")), ("16", ("contrast", "16")),
@@ -424,11 +422,28 @@ def machine_line(data, name):
 
 
 def require_one_machine(parts):
+    """Each part has a name and what it says of the machine, or nothing."""
     parts = [(name, machine) for name, machine in parts if machine]
     for name, machine in parts:
         if machine != parts[0][1]:
             sys.exit(f"tests/measure.py: {name} is of {machine}, {parts[0][0]} of {parts[0][1]}: "
                      "measure again")
+
+
+def frames_of_one_machine(prefix, others=()):
+    """The frames at each size, or nothing where they were not measured."""
+    frames = [(size, read(f"{prefix}-{size}.json")) for size in SIZES]
+    if not all(data for _, data in frames):
+        complain(f"{OUT} has no {prefix}: their tables stay as they are")
+        return None
+    require_one_machine([(f"{prefix}-{size}.json", data["machine"]) for size, data in frames] +
+                        [(name, data["machine"]) for name, data in others if data])
+    return frames
+
+
+def swept_machine(rows, machine):
+    """What a sweep says of the machine it ran on, in the form of an answer of whit bench."""
+    return {key: type(fact)(rows[0][key]) for key, fact in machine.items()} if rows else None
 
 
 def put(page, tables):
@@ -448,11 +463,9 @@ def write_speed():
     made = {"widths": width_table, "choices": choice_table,
            "triangles": triangle_table, "long-paths": long_path_table, "spheres": sphere_table}
     files = {name: read(name + ".json") for name in [*made, "effects-kernels"]}
-    frames = [(size, read(f"frames-{size}.json")) for size in SIZES]
-    if not all(data for _, data in frames):
-        return complain(f"{OUT} has no frames: the tables of speed stay as they are")
-    require_one_machine([(f"frames-{size}.json", data["machine"]) for size, data in frames] +
-                        [(name, data["machine"]) for name, data in files.items() if data])
+    frames = frames_of_one_machine("frames", files.items())
+    if not frames:
+        return
     tables = {"machine": machine_line(frames[0][1], f"frames-{SIZES[0]}.json")}
     tables["frames-" + SIZES[0]] = frame_table(frames[0][1])
     tables["sizes"] = sizes_table(frames, ["sponza-mirror", "atrium", "landscape"])
@@ -470,10 +483,9 @@ def write_speed():
 
 
 def write_avx2():
-    frames = [(size, read(f"frames-avx2-{size}.json")) for size in SIZES]
-    if not all(data for _, data in frames):
-        return complain(f"{OUT} has no frames on AVX2: their table stays as it is")
-    require_one_machine([(f"frames-avx2-{size}.json", data["machine"]) for size, data in frames])
+    frames = frames_of_one_machine("frames-avx2")
+    if not frames:
+        return
     put(SPEED_PAGE, {"avx2": avx2_table(frames)})
 
 
@@ -495,10 +507,8 @@ def write_accuracy():
     compared, rows = read("compare.json"), sweep()
     if not compared:
         return complain(f"{OUT} has no comparisons: the tables of accuracy stay as they are")
-    swept = {key: rows[0][key] for key in compared["machine"]} if rows else None
-    if swept:
-        swept["cores"] = int(swept["cores"])
-    require_one_machine([("compare.json", compared["machine"]), ("sweep.csv", swept)])
+    require_one_machine([("compare.json", compared["machine"]),
+                         ("sweep.csv", swept_machine(rows, compared["machine"]))])
     tables = {"machine": machine_line(compared, "compare.json"),
               "compare": compare_table(compared)}
     if rows:
@@ -513,12 +523,11 @@ def write_transport():
     machine, rows = read("transport.json"), sweep("transport")
     if not rows:
         return complain(f"{OUT} has no sweep against all transport: its tables stay as they are")
-    swept = {key: rows[0][key] for key in machine["machine"]}
-    swept["cores"] = int(swept["cores"])
-    require_one_machine([("transport.json", machine["machine"]), ("transport/sweep.csv", swept)])
-    put_charts("transport", {f"pareto-{scene}": f"transport-{scene}.svg" for scene in sweep_scenes(rows)})
+    require_one_machine([("transport.json", machine["machine"]),
+                         ("transport/sweep.csv", swept_machine(rows, machine["machine"]))])
+    put_charts("transport", {f"pareto-{scene}": f"transport-{scene}.svg" for scene in scenes_of(rows)})
     put(ACCURACY_PAGE, {"transport": "\n\n".join(
-        [machine_line(machine, "transport.json"), transport_charts(sweep_scenes(rows)),
+        [machine_line(machine, "transport.json"), transport_charts(scenes_of(rows)),
          transport_table(rows)])})
 
 
@@ -545,38 +554,25 @@ def write_hashes():
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--speed", action="store_true")
-    parser.add_argument("--avx2", action="store_true")
-    parser.add_argument("--accuracy", action="store_true")
-    parser.add_argument("--transport", action="store_true")
-    parser.add_argument("--tables-only", action="store_true")
-    parser.add_argument("--hashes", action="store_true")
-    job = parser.parse_args()
-    if job.hashes:
+    jobs = {"speed": (measure_speed, write_speed), "avx2": (measure_avx2, write_avx2),
+            "accuracy": (measure_accuracy, write_accuracy),
+            "transport": (measure_transport, write_transport)}
+    for name in [*jobs, "tables-only", "hashes"]:
+        parser.add_argument("--" + name, action="store_true")
+    wanted = vars(parser.parse_args())
+    if wanted["hashes"]:
         return write_hashes()
-    every = not (job.speed or job.avx2 or job.accuracy or job.transport)
-    if not job.tables_only:
+    chosen = [job for name, job in jobs.items() if wanted[name]] or list(jobs.values())
+    if not wanted["tables_only"]:
         if not (BUILD / "whit").exists():
             sys.exit("tests/measure.py: there is no build/whit; scenes/demo.sh makes it")
         if not has_sponza():
             complain("$WHIT_DATA has no crytek_sponza: sponza-mirror is left out")
         OUT.mkdir(parents=True, exist_ok=True)
-        if job.speed or every:
-            measure_speed()
-        if job.avx2 or every:
-            measure_avx2()
-        if job.accuracy or every:
-            measure_accuracy()
-        if job.transport or every:
-            measure_transport()
-    if job.speed or every:
-        write_speed()
-    if job.avx2 or every:
-        write_avx2()
-    if job.accuracy or every:
-        write_accuracy()
-    if job.transport or every:
-        write_transport()
+        for measure, _ in chosen:
+            measure()
+    for _, write in chosen:
+        write()
 
 
 if __name__ == "__main__":

@@ -1,39 +1,27 @@
 // whit accuracy from the outside.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
 #include "accuracy/report.h"
 #include "accuracy/sweep_rows.h"
-#include "cli/run_program.h"
+#include "cli/run_command.h"
 #include "embedded_data.h"
-#include "has_text.h"
 #include "sanitized.h"
 
 namespace whit::accuracy {
 namespace {
 
-std::string sourceFile(const std::string& name) {
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  return std::string(source ? source : ".") + "/" + name;
-}
-
-class AccuracyProgram : public testing::Test {
+class AccuracyProgram : public cli::TinySceneTest {
  protected:
-  // Runs `whit accuracy`, which must succeed, and reads its rows.
-  cli::Outcome sweep(std::vector<std::string> words) {
-    words.insert(words.begin(), "accuracy");
-    words.insert(words.end(), {"--out", out_});
-    const cli::Outcome outcome = cli::runWhit(words);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    rows_ = parseCsv(cli::readFile(out_ + "/sweep.csv"), "sweep.csv");
-    return outcome;
+  // Runs `whit accuracy`, which must succeed, reads its rows, and returns the table that it prints.
+  std::string sweep(const std::string& words) {
+    const std::string table = succeed("accuracy --out out " + words).out;
+    rows_ = parseCsv(bytesOf("out/sweep.csv"), "sweep.csv");
+    return table;
   }
 
-  const cli::TemporaryFolder folder_;
-  const std::string tiny_ = cli::writeTinyScene(folder_), out_ = folder_ / "out";
   std::vector<CsvRow> rows_;
 };
 
@@ -45,8 +33,8 @@ void expectNarrowLines(const std::string& text) {
 // The shipped scenes that take little time are swept with every knob. The terminal's table, the
 // rows and the report agree.
 TEST_F(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
-  const char* const seconds = kSanitized ? "0.05" : "0.5";
-  expectNarrowLines(sweep({"whitted", "glossy", "--size", "8x6", "--time-budget", seconds}).out);
+  const std::string seconds = kSanitized ? "0.05" : "0.5";
+  expectNarrowLines(sweep("whitted glossy --size 8x6 --time-budget " + seconds));
 
   // How many points are on a front depends on how busy the machine is, so only their rounds are
   // tested.
@@ -57,7 +45,7 @@ TEST_F(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
   }
 
   // The points of the report are the rows of the CSV file, in the same order.
-  const Json report = embeddedData(cli::readFile(out_ + "/report.html"));
+  const Json report = embeddedData(bytesOf("out/report.html"));
   ASSERT_EQ(report["scenes"].size(), 2u);
   std::size_t at = 0;
   for (const Json& scene : report["scenes"]) {
@@ -73,40 +61,27 @@ TEST_F(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
   EXPECT_EQ(at, rows_.size());
 }
 
-// With no time to repeat, each point has only the one frame that its picture took.
-TEST_F(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
-  sweep({tiny_, "--size", "16x10", "--knobs", "depth,spp", "--time-budget", "0"});
-  for (const CsvRow& row : rows_) {
-    if (row.at("kind") == "baseline") continue;
-    EXPECT_EQ(row.at("frames"), "1");
-    EXPECT_EQ(row.at("x_baseline_low"), "");
-    EXPECT_EQ(row.at("front"), "no") << row.at("value");
-  }
-}
-
 TEST_F(AccuracyProgram, SweepsATinyScene) {
-  const cli::Outcome outcome =
-      sweep({tiny_, "--size", "32x20", "--knobs", "depth,spp,fresnel", "--time-budget", "1"});
-  EXPECT_TRUE(hasText(outcome.out, "tiny, 32x20"));
-  EXPECT_TRUE(hasText(outcome.out, "depth=0"));
-  EXPECT_TRUE(
-      hasText(outcome.out, "not swept: fresnel: not among the effects of the scene: transm"));
+  const std::string table =
+      sweep("tiny.json --size 32x20 --knobs depth,spp,fresnel --time-budget 1");
+  for (const char* said : {"tiny, 32x20", "depth=0",
+                           "not swept: fresnel: not among the effects of the scene: transm"}) {
+    EXPECT_TRUE(hasText(table, said));
+  }
 
   ASSERT_GE(rows_.size(), 5u);
-  EXPECT_EQ(rows_[0].at("value"), "standard");
-  EXPECT_EQ(rows_[0].at("nonfinite"), "0");
-  EXPECT_EQ(rows_[0].at("reference_samples"), "64");
-  EXPECT_NE(cli::readFile(out_ + "/report.html").find("</html>"), std::string::npos);
+  EXPECT_EQ(rows_[0]["value"], "standard");
+  EXPECT_EQ(rows_[0]["nonfinite"], "0");
+  EXPECT_EQ(rows_[0]["reference_samples"], "64");
+  EXPECT_TRUE(hasText(bytesOf("out/report.html"), "</html>"));
 }
 
 // A sweep against all transport has a fourth cause of errors, and states the truth's own error.
 TEST_F(AccuracyProgram, MeasuresAgainstAllTransport) {
-  const cli::Outcome outcome =
-      sweep({tiny_, "--truth", "transport", "--size", "24x16", "--time-budget", "1"});
-  EXPECT_TRUE(hasText(outcome.out, "truth: all transport, by packets"));
-  EXPECT_TRUE(hasText(outcome.out, "standard error of a pixel"));
-
-  expectNarrowLines(outcome.out);
+  const std::string table = sweep("tiny.json --truth transport --size 24x16 --time-budget 1");
+  EXPECT_TRUE(hasText(table, "truth: all transport, by packets"));
+  EXPECT_TRUE(hasText(table, "standard error of a pixel"));
+  expectNarrowLines(table);
 
   std::map<std::string, CsvRow> rows;
   for (const CsvRow& row : rows_) {
@@ -130,13 +105,22 @@ TEST_F(AccuracyProgram, MeasuresAgainstAllTransport) {
 // whit accuracy mirrors --size 32x20 --knobs depth,cutoff,spp --reference-spp 64 --out DIR, then
 // DIR/sweep.csv.
 TEST_F(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
-  sweep({"mirrors", "--size", "32x20", "--knobs", "depth,cutoff,spp", "--time-budget", "1",
-         "--reference-spp", "64"});
-
-  const std::string kept = sourceFile("tests/accuracy/mirrors.csv");
+  sweep("mirrors --size 32x20 --knobs depth,cutoff,spp --time-budget 0 --reference-spp 64");
+  const std::string kept =
+      std::string(std::getenv("WHIT_SOURCE_DIR")) + "/tests/accuracy/mirrors.csv";
   const auto before = parseCsv(cli::readFile(kept), kept);
-  for (const std::string& line : grownErrors(before, rows_, {"depth", "cutoff", "spp"}))
+  for (const std::string& line : grownErrors(before, rows_)) {
     ADD_FAILURE() << line;
+  }
+
+  // With no time to repeat, each point has only the one frame that its picture took, and none is on
+  // a front.
+  for (CsvRow& row : rows_) {
+    if (row["kind"] == "baseline") continue;
+    EXPECT_EQ(row["frames"], "1");
+    EXPECT_EQ(row["x_baseline_low"], "");
+    EXPECT_EQ(row["front"], "no") << row["value"];
+  }
 }
 
 }  // namespace

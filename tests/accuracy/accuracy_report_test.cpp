@@ -10,24 +10,10 @@
 
 #include "accuracy/sweep_rows.h"
 #include "embedded_data.h"
+#include "has_text.h"
 
 namespace whit::accuracy {
 namespace {
-
-Point pointOf(PointKind kind, const std::string& knob, const std::string& value, double ms,
-              double flip) {
-  Point point;
-  point.kind = kind;
-  point.knob = knob;
-  point.value = value;
-
-  point.timing.steadyMs = ms;
-  point.timing.frames = point.timing.rounds = 9;
-  point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ms / 10;
-  point.total.flipMean = flip;
-  point.imagePng = point.totalMapPng = "png";
-  return point;
-}
 
 SceneSweep sweepOfThree() {
   SceneSweep sweep;
@@ -37,25 +23,41 @@ SceneSweep sweepOfThree() {
   sweep.referenceSamples = 64;
   sweep.truthPng = "png";
 
-  sweep.points = {pointOf(PointKind::baseline, "", "standard", 10, 0.02),
-                  pointOf(PointKind::knob, "depth", "2", 8, 0.03),
-                  pointOf(PointKind::knob, "depth", "16", 12, 0.025)};
+  struct Row {
+    PointKind kind;
+    const char *knob, *value;
+    double ms, flip;
+  };
+  for (const Row& row : {Row{PointKind::baseline, "", "standard", 10, 0.02},
+                         Row{PointKind::knob, "depth", "2", 8, 0.03},
+                         Row{PointKind::knob, "depth", "16", 12, 0.025}}) {
+    Point& point = sweep.points.emplace_back();
+    point.kind = row.kind;
+    point.knob = row.knob;
+    point.value = row.value;
+    point.timing.steadyMs = row.ms;
+    point.timing.frames = point.timing.rounds = 9;
+    point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = row.ms / 10;
+    point.total.flipMean = row.flip;
+    point.imagePng = point.totalMapPng = "png";
+  }
 
   sweep.points[0].onFront = sweep.points[1].onFront = true;
-  sweep.points[0].sameSamples = ImageDifference();
+  sweep.points[0].sameSamples.emplace();
   sweep.points[0].sameSamplesMapPng = "png";
-  sweep.points[0].arithmetic = ArithmeticError();
-  sweep.points[1].sameSamples = ImageDifference();
-  sweep.points[1].sameSamples->flipMean = 0.001;
+  sweep.points[0].arithmetic.emplace();
+  sweep.points[1].sameSamples.emplace().flipMean = 0.001;
   sweep.idle = {{"fresnel", "nothing in the scene is transparent"}};
   return sweep;
 }
 
+Json reportOf(const SceneSweep& sweep) { return reportJson({sweep}, Json::object()); }
+
 TEST(AccuracyReport, EmbedsItsDataUnchanged) {
-  const Json data = reportJson({sweepOfThree()}, Json::object());
+  const Json data = reportOf(sweepOfThree());
   const std::string page = reportPage(data);
   EXPECT_EQ(embeddedData(page), data);
-  EXPECT_EQ(page.find("{{"), std::string::npos);
+  EXPECT_FALSE(hasText(page, "{{"));
 
   const std::regex end("</script>");
   EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), end), {}), 2)
@@ -95,16 +97,15 @@ TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
 
 TEST(AccuracyReport, LoadsNothingFromAnywhere) {
   // The name space of SVG is a name, not a place.
-  const std::string page =
-      std::regex_replace(reportPage(reportJson({sweepOfThree()}, Json::object())),
-                         std::regex("http://www.w3.org/2000/svg"), "");
+  const std::string page = std::regex_replace(reportPage(reportOf(sweepOfThree())),
+                                              std::regex("http://www.w3.org/2000/svg"), "");
   for (const char* loads : {"http", "@import", "url(", "fetch(", " src=\"", "<link"})
-    EXPECT_EQ(page.find(loads), std::string::npos) << loads;
+    EXPECT_FALSE(hasText(page, loads));
 }
 
 TEST(AccuracyReport, SaysWhatWasMeasured) {
-  const Json scene = reportJson({sweepOfThree()}, Json::object())["scenes"][0];
-  EXPECT_NE(scene["reference"].get<std::string>().find("64 samples a pixel"), std::string::npos);
+  const Json scene = reportOf(sweepOfThree())["scenes"][0];
+  EXPECT_TRUE(hasText(scene["reference"].get<std::string>(), "64 samples a pixel"));
   EXPECT_EQ(scene["not_swept"][0]["because"], "nothing in the scene is transparent");
   EXPECT_EQ(scene["points"][1]["label"], "depth=2");
   EXPECT_EQ(scene["points"][1]["image_png"], "cG5n");
@@ -113,19 +114,21 @@ TEST(AccuracyReport, SaysWhatWasMeasured) {
 
 // RFC 4648, section 10.
 TEST(AccuracyReport, Base64) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
+  for (const auto& [bytes, text] : {std::pair<std::string, const char*>{"", ""},
+                                    {"f", "Zg=="},
+                                    {"fo", "Zm8="},
+                                    {"foo", "Zm9v"},
+                                    {"foob", "Zm9vYg=="},
+                                    {std::string("\xff\x00\xfe", 3), "/wD+"}}) {
+    EXPECT_EQ(base64(bytes), text);
+  }
 }
 
 // A report against all transport says how far off that truth is itself.
 TEST(AccuracyReport, SaysHowFarOffTheTruthIs) {
   SceneSweep sweep = sweepOfThree();
   EXPECT_EQ(transportText(sweep), "");
-  EXPECT_FALSE(reportJson({sweep}, Json::object())["scenes"][0].contains("transport"));
+  EXPECT_FALSE(reportOf(sweep)["scenes"][0].contains("transport"));
 
   sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
   for (Point& point : sweep.points) point.transport.emplace().flipMean = 0.0777;
@@ -135,10 +138,10 @@ TEST(AccuracyReport, SaysHowFarOffTheTruthIs) {
   for (const char* said :
        {"512 samples a pixel in 8 independent passes, 4.0 s;", "2.00e-03, 0.4 % of the mean",
         "a FLIP of 0.0123", "single precision is off by 1.0e-07"}) {
-    EXPECT_NE(text.find(said), std::string::npos) << said << " in " << text;
+    EXPECT_TRUE(hasText(text, said));
   }
 
-  const Json scene = reportJson({sweep}, Json::object())["scenes"][0];
+  const Json scene = reportOf(sweep)["scenes"][0];
   EXPECT_EQ(scene["transport"], text);
   EXPECT_EQ(scene["points"][0]["truth_noise_flip"], 0.0123);
   EXPECT_EQ(scene["points"][0]["transport_flip"], 0.0777);

@@ -18,9 +18,16 @@
 namespace whit {
 namespace {
 
-Scene load(const std::string& name) {
+Scene load(const std::string& name, const LoadOptions& options = {}) {
   Warnings warnings;
-  return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+  return Scene::finalize(loadScene(name, options, warnings), warnings);
+}
+
+Image rendered(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  renderer.render(chooseCamera(scene, options), film);
+  return film.image;
 }
 
 struct Chosen {
@@ -44,6 +51,12 @@ Chosen chooseFor(const Scene& scene, const Budget& budget, const std::set<std::s
   return chosen;
 }
 
+RenderOptions withSamples(int spp) {
+  RenderOptions options;
+  options.spp = spp;
+  return options;
+}
+
 std::string errorOf(const std::string& time, const std::string& target) {
   try {
     parseBudget(time, target);
@@ -55,9 +68,9 @@ std::string errorOf(const std::string& time, const std::string& target) {
 }
 
 TEST(Budgets, AreRead) {
-  EXPECT_EQ(parseBudget("50ms", "").ms, 50);
-  EXPECT_EQ(parseBudget("1.5s", "").ms, 1500);
-  EXPECT_EQ(parseBudget("2min", "").ms, 120000);
+  for (const auto& [text, ms] : {std::pair{"50ms", 50}, {"1.5s", 1500}, {"2min", 120000}}) {
+    EXPECT_EQ(parseBudget(text, "").ms, ms);
+  }
   EXPECT_EQ(parseBudget("", "flip=0.01").error, 0.01);
   EXPECT_FALSE(parseBudget("", "flip=0.01").inCodes);
   EXPECT_EQ(parseBudget("", "0.5codes").error, 0.5);
@@ -72,7 +85,6 @@ TEST(Budgets, OfOtherWordsAreRefused) {
   for (const char* const target : {"0.5", "flip", "flip=0", "flip=2", "-1codes", "codes"}) {
     EXPECT_TRUE(hasText(errorOf("", target), "--target: expected an error above 0")) << target;
   }
-  EXPECT_TRUE(hasText(errorOf("1s", "flip=0.1"), "give one of them"));
 }
 
 TEST(BestWithin, IsTheLeastErrorThatFits) {
@@ -91,11 +103,7 @@ TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
   same.size = ImageSize{64, 48};
   for (const auto& [name, value] : chosen.receipt.chosen) setOption(same, name, value);
 
-  Renderer renderer(scene, same);
-  Film film = makeFilm(scene, same);
-  renderer.render(chooseCamera(scene, same), film);
-
-  EXPECT_EQ(film.image.pixels, chosen.image.pixels);
+  EXPECT_EQ(rendered(scene, same).pixels, chosen.image.pixels);
   EXPECT_LE(chosen.receipt.low, chosen.receipt.error);
   EXPECT_GE(chosen.receipt.high, chosen.receipt.error);
 }
@@ -117,8 +125,7 @@ TEST(Budgets, NameWhatTheSceneStatesOtherwise) {
 
 TEST(Budgets, KeepWhatIsGiven) {
   const Scene scene = load("mirrors");
-  RenderOptions options;
-  options.spp = 3;
+  RenderOptions options = withSamples(3);
   options.depth = 5;
   const Receipt receipt = chooseFor(scene, {.ms = 100}, {"spp", "depth", "size"}, options).receipt;
   EXPECT_EQ(receipt.options.spp, 3);
@@ -137,10 +144,9 @@ TEST(Budgets, ThatAreTooSmallSaySo) {
 
 // Whatever was measured: which of these budgets are too small depends on the machine.
 TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
-  Warnings warnings;
   LoadOptions soft;
   soft.settings = {"/lights/0/radius=0.5"};
-  const Scene scene = Scene::finalize(loadScene("matte", soft, warnings), warnings);
+  const Scene scene = load("matte", soft);
 
   for (double ms = 1; ms <= 64; ms *= 1.5) {
     const Receipt receipt = chooseFor(scene, {.ms = ms}).receipt;
@@ -154,8 +160,7 @@ TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
 // much light at their ends only if the given depth is small.
 TEST(Budgets, TellTheErrorOfThePicture) {
   const Scene scene = load("cornell");
-  RenderOptions options;
-  options.spp = 16;
+  RenderOptions options = withSamples(16);
   options.ambientSamples = 1;
   const std::set<std::string> fixed{"spp", "depth", "ambient-samples"};
   const Chosen chosen = chooseFor(scene, {.ms = 300}, fixed, options);
@@ -166,18 +171,17 @@ TEST(Budgets, TellTheErrorOfThePicture) {
   for (const Receipt::Knob& knob : chosen.receipt.approximate) {
     setOption(many, knob.name, knob.exact);
   }
-  Renderer renderer(scene, many);
-  Film film = makeFilm(scene, many);
-  renderer.render(chooseCamera(scene, many), film);
-
-  const double flip = compareImages(chosen.image, film.image, 0, many.toneCurve).flipMean;
+  const double flip =
+      compareImages(chosen.image, rendered(scene, many), 0, many.toneCurve).flipMean;
   EXPECT_GE(flip, chosen.receipt.low);
   EXPECT_LE(flip, chosen.receipt.high);
 
-  options.depth = 0;
-  EXPECT_GT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.05);
-  options.depth = 64;
-  EXPECT_LT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.01);
+  const auto endedAt = [&](int depth) {
+    options.depth = depth;
+    return chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value();
+  };
+  EXPECT_GT(endedAt(0), 0.05);
+  EXPECT_LT(endedAt(64), 0.01);
 }
 
 // Each pixel of the view of chooseFor() has a shining square that covers this share of it,
@@ -231,10 +235,8 @@ double codesFrom(const Rgb& color, const Image& image) {
 // Red and green squares of equal brightness: the mean of red, green and blue has no noise.
 TEST(Targets, CountTheNoiseOfEachColor) {
   const Rgb red{0.8f, 0.05f, 0.05f}, green{0.05f, 0.8f, 0.05f};
-  RenderOptions options;
-  options.spp = 16;
-  const Scene scene = lattice(0.5, red, green);
-  const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
+  const Chosen chosen =
+      chooseFor(lattice(0.5, red, green), {.error = 1, .inCodes = true}, {"spp"}, withSamples(16));
 
   const double error = codesFrom((red + green) / 2.0f, chosen.image);
   EXPECT_GT(error, 1);
@@ -245,11 +247,9 @@ TEST(Targets, CountTheNoiseOfEachColor) {
 // one sample in 256 hits a square, 16 samples that all miss say nothing about their pixel's error.
 TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   constexpr double kGray = 0.2;
-  RenderOptions options;
-  options.spp = 16;
   for (const double share : {0.5, 1.0 / 256}) {
-    const Scene scene = lattice(share, Rgb(static_cast<float>(kGray / share)));
-    const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
+    const Chosen chosen = chooseFor(lattice(share, Rgb(static_cast<float>(kGray / share))),
+                                    {.error = 1, .inCodes = true}, {"spp"}, withSamples(16));
     const double error = codesFrom(Rgb(static_cast<float>(kGray)), chosen.image);
 
     const Receipt& receipt = chosen.receipt;
@@ -264,7 +264,6 @@ TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
 // A single sample of random paths says nothing about its error.
 TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
   RenderOptions options;
-  options.spp = 1;
   options.indirect = 1;
   const Receipt paths = chooseFor(load("cornell"), {.ms = 100}, {"spp"}, options).receipt;
   EXPECT_TRUE(std::isinf(paths.high));
@@ -279,10 +278,9 @@ TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
 // are black.
 TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
   const Scene scene = load("cornell");
-  RenderOptions options;
+  RenderOptions options = withSamples(400);
   options.size = ImageSize{32, 32};
   options.indirect = 1;
-  options.spp = 400;
   options.channels = ChannelSet().with(Channel::error);
 
   Renderer renderer(scene, options);
@@ -342,15 +340,6 @@ TEST(Targets, NeedMoreSamplesForLessError) {
 TEST(Targets, OutOfReachSaySo) {
   const Receipt receipt = chooseFor(load("matte"), {.error = 1e-6}, {"spp"}).receipt;
   EXPECT_TRUE(hasText(receipt.note, "out of reach"));
-}
-
-TEST(Budgets, RefuseWhatTheyWouldChoose) {
-  const Scene scene = load("matte");
-  EXPECT_THROW(chooseFor(scene, {.ms = 50}, {"quality"}), Error);
-
-  RenderOptions reference;
-  reference.mode = Mode::reference;
-  EXPECT_THROW(chooseFor(scene, {.ms = 50}, {}, reference), Error);
 }
 
 TEST(Receipts, HaveTheCommandWithoutTheBudget) {

@@ -15,6 +15,11 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
+// A point beats another one if it is no worse in both respects and better in one.
+bool beats(const CostAndError& a, const CostAndError& b) {
+  return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+}
+
 TEST(Pareto, ByHand) {
   EXPECT_EQ(paretoFront({}), Indices{});
   EXPECT_EQ(paretoFront({{3, 1}}), Indices{0});
@@ -43,11 +48,8 @@ TEST(Pareto, AgainstTheDefinition) {
 
     std::set<std::pair<double, double>> values;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      bool beaten = false;
-      for (const CostAndError& q : points) {
-        const CostAndError& p = points[i];
-        beaten |= q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error);
-      }
+      const bool beaten =
+          std::ranges::any_of(points, [&](const CostAndError& q) { return beats(q, points[i]); });
       EXPECT_FALSE(beaten && members.contains(i));
       if (!beaten) values.insert({points[i].cost, points[i].error});
     }
@@ -71,69 +73,47 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
     }
 
     markFronts(points);
-    // A point beats another one if it is no worse in both respects and better in one.
-    const auto beats = [](double time, double error, double otherTime, double otherError) {
-      return time <= otherTime && error <= otherError && (time < otherTime || error < otherError);
-    };
     for (const Point& p : points) {
       without += !p.timing.hasSpread();
 
       bool beaten = false, beatenSame = false;
       for (const Point& q : points) {
         if (!q.timing.hasSpread()) continue;
-        beaten |= beats(q.timing.steadyMs, q.total.flipMean, p.timing.steadyMs, p.total.flipMean);
+        const double time = q.timing.steadyMs, ownTime = p.timing.steadyMs;
+        beaten |= beats({time, q.total.flipMean}, {ownTime, p.total.flipMean});
         beatenSame |= q.sameSamples && p.sameSamples &&
-                      beats(q.timing.steadyMs, q.sameSamples->flipMean, p.timing.steadyMs,
-                            p.sameSamples->flipMean);
+                      beats({time, q.sameSamples->flipMean}, {ownTime, p.sameSamples->flipMean});
       }
-      EXPECT_FALSE(p.onFront && (beaten || p.timing.rounds < kLeastRounds));
-      EXPECT_FALSE(p.onFrontSameSamples &&
-                   (beatenSame || !p.sameSamples || p.timing.rounds < kLeastRounds));
+      const bool timed = p.timing.rounds >= kLeastRounds;
+      EXPECT_FALSE(p.onFront && (beaten || !timed));
+      EXPECT_FALSE(p.onFrontSameSamples && (beatenSame || !p.sameSamples || !timed));
     }
 
     // There is a front if any point has a spread.
-    const bool timed = std::any_of(points.begin(), points.end(),
-                                   [](const Point& p) { return p.timing.hasSpread(); });
-    const bool front =
-        std::any_of(points.begin(), points.end(), [](const Point& p) { return p.onFront; });
-    EXPECT_EQ(front, timed);
+    EXPECT_EQ(std::ranges::any_of(points, &Point::onFront),
+              std::ranges::any_of(points, [](const Point& p) { return p.timing.hasSpread(); }));
   }
   EXPECT_GT(without, 100) << "of which the law speaks";
 }
 
-Point knobPoint(const std::string& knob, const std::string& value, double ratio, double flip) {
-  Point point;
-  point.knob = knob;
-  point.value = value;
-  point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ratio;
-  point.timing.rounds = point.timing.frames = 5;
-  point.total.flipMean = flip;
-  return point;
-}
-
-// The baseline has a FLIP of 0.04.
-SceneSweep sweepOf(const std::vector<Point>& points) {
-  SceneSweep sweep;
-  sweep.scene = "room";
-  sweep.points.push_back(knobPoint("", "standard", 1, 0.04));
-  sweep.points.front().kind = PointKind::baseline;
-  sweep.points.insert(sweep.points.end(), points.begin(), points.end());
-  return sweep;
-}
-
 TEST(Noise, IsTheMedianSpread) {
-  SceneSweep sweep = sweepOf({knobPoint("a", "1", 1, 0), knobPoint("b", "1", 2, 0),
-                              knobPoint("c", "1", 1, 0), knobPoint("d", "1", 1, 0)});
-  sweep.points[1].timing.ratioLow = 0.98;
-  sweep.points[1].timing.ratioHigh = 1.02;
-  sweep.points[2].timing.ratioLow = 1.8;
-  sweep.points[2].timing.ratioHigh = 2.2;
-  sweep.points[3].timing.ratioLow = 0.5;
-  sweep.points[3].timing.ratioHigh = 1.5;
-  sweep.points[4].timing.rounds = 1;
+  // The spreads are 2 %, 10 % and 50 % of the medians; the baseline and the last point have none.
+  struct Ratios {
+    double low, median, high;
+    int rounds = 5;
+  };
+  SceneSweep sweep;
+  for (const Ratios& r : {Ratios{1, 1, 1}, Ratios{0.98, 1, 1.02}, Ratios{1.8, 2, 2.2},
+                          Ratios{0.5, 1, 1.5}, Ratios{1, 1, 1, 1}}) {
+    Timing& timing = sweep.points.emplace_back().timing;
+    timing.ratioLow = r.low;
+    timing.ratio = r.median;
+    timing.ratioHigh = r.high;
+    timing.rounds = r.rounds;
+  }
+  sweep.points[0].kind = PointKind::baseline;
   sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
 
-  // The spreads are 2 %, 10 % and 50 % of the medians; the fourth point has none.
   EXPECT_NEAR(noiseOf(sweep).time, 0.1, 1e-12);
   EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
 }

@@ -47,22 +47,24 @@ std::vector<CsvRow> rowsOf(const SceneSweep& sweep) {
   return parseCsv(sweepCsv({sweep}, facts()), "sweep.csv");
 }
 
+void expectFields(const CsvRow& row, const CsvRow& expected) {
+  for (const auto& [name, field] : expected) EXPECT_EQ(row.at(name), field) << name;
+}
+
 TEST(SweepCsv, WhatIsWrittenIsRead) {
   const std::vector<CsvRow> rows = rowsOf(sweepOfTwo());
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].at("scene"), "room");
-  EXPECT_EQ(rows[0].at("kind"), "baseline");
-  EXPECT_EQ(rows[0].at("total_rmse"), "0.25");
-  EXPECT_EQ(rows[0].at("total_psnr_db"), "inf");
-  EXPECT_EQ(rows[0].at("same_samples_rmse"), "0");
-  EXPECT_EQ(rows[0].at("arithmetic_rmse"), "");
-  EXPECT_EQ(rows[0].at("cpu"), "A \"fast\", big one");
-
-  EXPECT_EQ(rows[1].at("knob"), "depth");
-  EXPECT_TRUE(hasText((" " + rows[1].at("options") + " "), " depth=2 "));
-  EXPECT_EQ(rows[1].at("path_flips"), "3");
-  EXPECT_EQ(rows[1].at("same_samples_rmse"), "");
-  EXPECT_EQ(rows[1].at("cause"), "algorithm");
+  expectFields(rows[0], {{"scene", "room"},
+                         {"kind", "baseline"},
+                         {"total_rmse", "0.25"},
+                         {"total_psnr_db", "inf"},
+                         {"same_samples_rmse", "0"},
+                         {"arithmetic_rmse", ""},
+                         {"cpu", "A \"fast\", big one"}});
+  expectFields(
+      rows[1],
+      {{"knob", "depth"}, {"path_flips", "3"}, {"same_samples_rmse", ""}, {"cause", "algorithm"}});
+  EXPECT_TRUE(hasText(" " + rows[1].at("options") + " ", " depth=2 "));
 }
 
 TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
@@ -75,91 +77,65 @@ TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
   }
 }
 
-// The errors that have grown since sweepOfTwo().
-std::vector<std::string> grown(const SceneSweep& now, const std::vector<std::string>& knobs = {}) {
-  return grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), knobs);
-}
+// The truth of a sweep against all transport.
+const TransportFacts kTransport{8, 512, 0.002, 0.5, 0.0123, 4000};
 
-TEST(CheckErrors, TheSamePasses) { EXPECT_TRUE(grown(sweepOfTwo()).empty()); }
+// A change of sweepOfTwo(), and how many errors have then grown.
+struct Change {
+  const char* what;
+  void (*change)(SceneSweep&);
+  std::size_t grown;
+};
 
-TEST(CheckErrors, SmallerErrorsAndOtherTimesPass) {
-  SceneSweep better = sweepOfTwo();
-  better.points[1].total.rmse = 0.1;
-  better.points[1].timing.medianMs = 1e6;
-  EXPECT_TRUE(grown(better).empty());
-}
-
-// The limit is 10 % more and the absolute slack: 0.2750 is just within, 0.2752 just beyond.
 TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
-  SceneSweep now = sweepOfTwo();
-  now.points[0].total.rmse = 0.2750;
-  EXPECT_TRUE(grown(now).empty());
-
-  now.points[0].total.rmse = 0.2752;
-  ASSERT_EQ(grown(now).size(), 1u);
-  EXPECT_TRUE(hasText(grown(now)[0], "total_rmse was 0.25, is 0.2752"));
-}
-
-// The limit is a tenth more than 30 %, and two of the 100 pixels: 35 %.
-TEST(CheckErrors, SharesHaveTwoPixelsOfSlack) {
-  SceneSweep now = sweepOfTwo();
-  now.points[1].total.pixelsGe1CodePct = 34.9;
-  EXPECT_TRUE(grown(now).empty());
-  now.points[1].total.pixelsGe1CodePct = 35.1;
-  EXPECT_EQ(grown(now).size(), 1u);
-}
-
-TEST(CheckErrors, NonFinitePixelsAndNanFail) {
-  SceneSweep now = sweepOfTwo();
-  now.points[0].total.nonFinite = 1;
-  EXPECT_EQ(grown(now).size(), 1u);
-  now = sweepOfTwo();
-  now.points[0].total.rmse = std::nan("");
-  EXPECT_EQ(grown(now).size(), 1u);
-}
-
-TEST(CheckErrors, MissingPointsFailUnlessTheirKnobWasLeftOut) {
-  SceneSweep now = sweepOfTwo();
-  now.points.pop_back();
-  EXPECT_EQ(grown(now).size(), 1u);
-  EXPECT_TRUE(grown(now, {"cutoff"}).empty());
+  const Change changes[] = {
+      {"nothing", [](SceneSweep&) {}, 0},
+      {"a smaller error", [](SceneSweep& now) { now.points[1].total.rmse = 0.1; }, 0},
+      {"another time", [](SceneSweep& now) { now.points[1].timing.medianMs = 1e6; }, 0},
+      // The limit is 10 % more and the absolute slack.
+      {"just within", [](SceneSweep& now) { now.points[0].total.rmse = 0.2750; }, 0},
+      {"just beyond", [](SceneSweep& now) { now.points[0].total.rmse = 0.2752; }, 1},
+      // The limit is a tenth more than 30 %, and two of the 100 pixels: 35 %.
+      {"a share within", [](SceneSweep& now) { now.points[1].total.pixelsGe1CodePct = 34.9; }, 0},
+      {"a share beyond", [](SceneSweep& now) { now.points[1].total.pixelsGe1CodePct = 35.1; }, 1},
+      {"a pixel", [](SceneSweep& now) { now.points[0].total.nonFinite = 1; }, 1},
+      {"NaN", [](SceneSweep& now) { now.points[0].total.rmse = std::nan(""); }, 1},
+      {"a point less", [](SceneSweep& now) { now.points.pop_back(); }, 1},
+      // What was measured otherwise cannot be compared: none of the two points is found again.
+      {"another truth", [](SceneSweep& now) { now.transport = kTransport; }, 2},
+      {"another reference", [](SceneSweep& now) { now.referenceSamples = 16; }, 2},
+      {"another scene", [](SceneSweep& now) { now.scene = "other"; }, 2},
+  };
+  for (const Change& change : changes) {
+    SceneSweep now = sweepOfTwo();
+    change.change(now);
+    const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now));
+    EXPECT_EQ(grown.size(), change.grown) << change.what;
+    if (change.what == std::string("just beyond")) {
+      EXPECT_TRUE(hasText(grown.at(0), "total_rmse was 0.25, is 0.2752"));
+    }
+  }
 }
 
 // The rows say whether all transport is the truth and how far off that truth is. The rows of a
 // sweep against the model leave those fields empty.
 TEST(SweepCsv, SaysWhatTheTruthIs) {
   SceneSweep sweep = sweepOfTwo();
-  EXPECT_EQ(rowsOf(sweep)[0].at("truth"), "model");
-  EXPECT_EQ(rowsOf(sweep)[0].at("truth_standard_error"), "");
-  EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "");
+  expectFields(rowsOf(sweep)[0],
+               {{"truth", "model"}, {"truth_standard_error", ""}, {"transport_flip", ""}});
 
-  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
+  sweep.transport = kTransport;
   sweep.points[1].transport.emplace().flipMean = 0.0777;
 
-  const CsvRow row = rowsOf(sweep)[1];
-  EXPECT_EQ(row.at("truth"), "transport");
-  EXPECT_EQ(row.at("truth_passes"), "8");
-  EXPECT_EQ(row.at("truth_samples"), "512");
-  EXPECT_EQ(row.at("truth_standard_error"), "0.002");
-  EXPECT_EQ(row.at("truth_noise_flip"), "0.0123");
-  EXPECT_EQ(row.at("transport_flip"), "0.0777");
-  EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "") << "not measured";
-}
-
-TEST(CheckErrors, AnotherTruthCannotBeCompared) {
-  SceneSweep now = sweepOfTwo();
-  now.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
-  EXPECT_FALSE(grown(now).empty());
-  EXPECT_TRUE(grownErrors(rowsOf(now), rowsOf(now), {}).empty());
-}
-
-TEST(CheckErrors, AnotherReferenceCannotBeCompared) {
-  SceneSweep now = sweepOfTwo();
-  now.referenceSamples = 16;
-  EXPECT_FALSE(grown(now).empty());
-  now = sweepOfTwo();
-  now.scene = "other";
-  EXPECT_FALSE(grown(now).empty());
+  const std::vector<CsvRow> rows = rowsOf(sweep);
+  expectFields(rows[1], {{"truth", "transport"},
+                         {"truth_passes", "8"},
+                         {"truth_samples", "512"},
+                         {"truth_standard_error", "0.002"},
+                         {"truth_noise_flip", "0.0123"},
+                         {"transport_flip", "0.0777"}});
+  EXPECT_EQ(rows[0].at("transport_flip"), "") << "not measured";
+  EXPECT_TRUE(grownErrors(rows, rows).empty());
 }
 
 // RFC 4180, section 2: a carriage return would end the record for many readers.

@@ -1,53 +1,46 @@
 // --channels as users run it.
-#include <gtest/gtest.h>
-
-#include "command_json.h"
-#include "has_text.h"
-#include "io/image/image_file.h"
 #include "io/image/image_layers.h"
-#include "picture_file.h"
 #include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::string kAll = "depth,position,normal,albedo,uv,object,material,triangle,rays";
 
 class Channels : public TinySceneTest {
  protected:
+  std::vector<ImageLayer> layersOf(const std::string& name) const {
+    return readLayers(folder_ / name, ImageLimits());
+  }
+
   // A refused command writes nothing.
-  void expectRefused(int status, const std::string& why, const Words& words) const {
+  void expectRefused(int status, const std::string& why, const std::string& line) const {
     const auto count = [&] {
-      return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+      return std::distance(std::filesystem::directory_iterator(folder_.path()), {});
     };
     const auto before = count();
-    expectFailure(words, status, why);
+    expectFailure(line, status, why);
     EXPECT_EQ(count(), before);
   }
 };
 
 TEST_F(Channels, AreBesideThePicture) {
-  const std::string exr = folder_ / "a.exr";
-  succeed({"render", tiny_, "-o", exr, "-o", folder_ / "a.png", "-o", folder_ / "a.depth.png", "-o",
-           folder_ / "normal.png", "--channels", kAll, "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "plain.exr", "-o", folder_ / "plain.png", "--quiet"});
+  succeed("render tiny.json -o a.exr -o a.png -o a.depth.png -o normal.png --channels " + kAll);
+  succeed("render tiny.json -o plain.exr -o plain.png");
 
-  EXPECT_EQ(readLayers(exr, ImageLimits()).size(), 17u);
-  EXPECT_TRUE(readLayers(folder_ / "plain.exr", ImageLimits()).empty());
+  EXPECT_EQ(layersOf("a.exr").size(), 17u);
+  EXPECT_TRUE(layersOf("plain.exr").empty());
   // Channels change nothing in the pictures.
-  EXPECT_EQ(readFile(folder_ / "a.png"), readFile(folder_ / "plain.png"));
-  EXPECT_NE(readFile(folder_ / "a.depth.png"), readFile(folder_ / "plain.png"));
+  EXPECT_EQ(bytesOf("a.png"), bytesOf("plain.png"));
+  EXPECT_NE(bytesOf("a.depth.png"), bytesOf("plain.png"));
 
-  EXPECT_EQ(metadataOf(exr).at("channels"), kAll);
-  EXPECT_EQ(Json::parse(metadataOf(exr).at("objects")),
-            (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
-  const Json materials = Json::parse(metadataOf(exr).at("materials"));
+  auto metadata = metadataOf("a.exr");
+  EXPECT_EQ(metadata["channels"], kAll);
+  EXPECT_EQ(Json::parse(metadata["objects"]), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
+  const Json materials = Json::parse(metadata["materials"]);
 
   // The numbers in the channels are those that whit info lists.
-  const Outcome info = runWhit({"info", tiny_, "--json", "-"});
-  const Json said = Json::parse(info.out);
+  const Json said = jsonOf("info tiny.json");
   EXPECT_EQ(said["objects"], 2);
   EXPECT_EQ(said["object_names"], (Json{"/scene/0", "/scene/1"}));
   ASSERT_EQ(said["material_names"].size(), materials.size());
@@ -59,25 +52,23 @@ TEST_F(Channels, AreBesideThePicture) {
 // The name of an image asks for its channel. The gray EXR is what programs without knowledge of
 // channels read; its values are those of the layers beside a picture.
 TEST_F(Channels, AnImageNamedByOneHoldsItAlone) {
-  succeed({"render", tiny_, "-o", folder_ / "a.png", "-o", folder_ / "a.depth.png", "-o",
-           folder_ / "a.depth.exr", "-o", folder_ / "a.normal.exr", "-o", folder_ / "a.uv.exr",
-           "-o", folder_ / "a.object.exr", "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "b.exr", "-o", folder_ / "b.depth.png", "--channels",
-           "depth,normal,uv,object", "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "depth.png", "--quiet"});
-  EXPECT_EQ(readFile(folder_ / "a.depth.png").size(), readFile(folder_ / "b.depth.png").size());
-  EXPECT_EQ(readFile(folder_ / "depth.png").size(), readFile(folder_ / "a.png").size());
+  succeed(
+      "render tiny.json -o a.png -o a.depth.png -o a.depth.exr -o a.normal.exr -o a.uv.exr "
+      "-o a.object.exr");
+  succeed("render tiny.json -o b.exr -o b.depth.png --channels depth,normal,uv,object");
+  succeed("render tiny.json -o depth.png");
+  EXPECT_EQ(bytesOf("a.depth.png").size(), bytesOf("b.depth.png").size());
+  EXPECT_EQ(bytesOf("depth.png").size(), bytesOf("a.png").size());
 
-  const std::vector<ImageLayer> all = readLayers(folder_ / "b.exr", ImageLimits());
+  const std::vector<ImageLayer> all = layersOf("b.exr");
   const auto layer = [&](const std::string& name) {
     const auto found = std::ranges::find(all, name, &ImageLayer::name);
     return found->countsThings ? std::vector<float>(found->words.begin(), found->words.end())
                                : found->floats();
   };
-  const auto expectColors = [&](const std::string& file, std::array<std::string, 3> names) {
-    const Image image = readImage(folder_ / file, ImageLimits());
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (names[c].empty()) continue;
+  const auto expectColors = [&](const std::string& file, const Words& names) {
+    const Image image = imageIn(file);
+    for (std::size_t c = 0; c < names.size(); ++c) {
       const std::vector<float> expected = layer(names[c]);
       for (std::size_t i = 0; i < expected.size(); ++i) {
         const bool isNothing = names[c] == "object.id" && expected[i] > 1e9f;
@@ -86,83 +77,68 @@ TEST_F(Channels, AnImageNamedByOneHoldsItAlone) {
       }
     }
   };
-  expectColors("a.depth.exr", {"depth.Z", "depth.Z", "depth.Z"});
-  expectColors("a.object.exr", {"object.id", "object.id", "object.id"});
+  expectColors("a.depth.exr", Words(3, "depth.Z"));
+  expectColors("a.object.exr", Words(3, "object.id"));
   expectColors("a.normal.exr", {"normal.X", "normal.Y", "normal.Z"});
-  expectColors("a.uv.exr", {"uv.U", "uv.V", ""});
+  expectColors("a.uv.exr", {"uv.U", "uv.V"});
 }
 
 // A frame's number may stand before the channel's name or behind it.
 TEST_F(Channels, FramesHoldTheChannelTheyAreNamedBy) {
-  const std::string model = folder_ / "model.obj";
-  std::ofstream(model) << "v -1 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
-  succeed({"render", tiny_, "--frames", "0..1", "-o", folder_ / "f##.depth.png", "-o",
-           folder_ / "f##.depth.exr", "-o", folder_ / "g.depth.##.exr", "--quiet"});
-  succeed({"turntable", model, "--count", "2", "--size", "24x16", "-o", folder_ / "tt.##.depth.exr",
-           "--quiet"});
+  save("model.obj", "v -1 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  succeed("render tiny.json --frames 0..1 -o f##.depth.png -o f##.depth.exr -o g.depth.##.exr");
+  succeed("turntable model.obj --count 2 --size 24x16 -o tt.##.depth.exr");
 
   for (const char* file : {"f01.depth.exr", "g.depth.01.exr", "tt.01.depth.exr"}) {
-    EXPECT_EQ(metadataOf(folder_ / file).at("channel"), "depth") << file;
+    EXPECT_EQ(metadataOf(file)["channel"], "depth") << file;
   }
-  EXPECT_EQ(readFile(folder_ / "f01.depth.exr"), readFile(folder_ / "g.depth.01.exr"));
+  EXPECT_EQ(bytesOf("f01.depth.exr"), bytesOf("g.depth.01.exr"));
   constexpr std::size_t kDepthAt = 24, kColorTypeAt = 25;  // in the head of a PNG
-  const std::string png = readFile(folder_ / "f01.depth.png");
+  const std::string png = bytesOf("f01.depth.png");
   EXPECT_EQ(png.at(kDepthAt), 16);
   EXPECT_EQ(png.at(kColorTypeAt), 0) << "gray";
 }
 
 TEST_F(Channels, DepthsBeyondWhat16BitsHoldAreRefused) {
   expectRefused(5, "does not fit into 16 bits",
-                {"render", tiny_, "-o", folder_ / "a.depth.png", "--channels", "depth", "--eye",
-                 "0,100,0", "--at", "0,0,0.1", "--quiet"});
+                "render tiny.json -o a.depth.png --eye 0,100,0 --at 0,0,0.1");
 }
 
 TEST_F(Channels, OfCropsAreMerged) {
-  const auto part = [&](const std::string& name, const Words& more) {
-    succeed(
-        joined({"render", tiny_, "-o", folder_ / name, "--channels", kAll, "--spp", "2", "--quiet"},
-               more));
+  const auto part = [&](const std::string& words) {
+    succeed("render tiny.json --spp 2 --channels " + kAll + " -o " + words);
   };
 
-  part("whole.exr", {});
-  part("left.exr", {"--crop", "0,0,20,32"});
-  part("right.exr", {"--crop", "20,0,48,32"});
-  succeed({"merge", folder_ / "merged.exr", folder_ / "left.exr", folder_ / "right.exr"});
-  EXPECT_EQ(metadataOf(folder_ / "merged.exr").at("objects"),
-            metadataOf(folder_ / "whole.exr").at("objects"));
+  part("whole.exr");
+  part("left.exr --crop 0,0,20,32");
+  part("right.exr --crop 20,0,48,32");
+  succeed("merge merged.exr left.exr right.exr");
+  EXPECT_EQ(metadataOf("merged.exr")["objects"], metadataOf("whole.exr")["objects"]);
 
-  const Outcome compared = succeed({"compare", folder_ / "merged.exr", folder_ / "whole.exr",
-                                    "--tolerance", "0", "--json", "-"});
-  const Json channels = Json::parse(compared.out)["channels"];
+  const Json channels = jsonOf("compare merged.exr whole.exr --tolerance 0")["channels"];
   ASSERT_EQ(channels.size(), 17u);
   for (const Json& c : channels) EXPECT_EQ(c["pixels_differing"], 0) << c;
 
   // Parts must have the same channels.
-  succeed({"render", tiny_, "-o", folder_ / "bare.exr", "--crop", "0,0,20,32", "--quiet"});
-  expectRefused(2, "bare.exr: lacks the channel",
-                {"merge", folder_ / "m.exr", folder_ / "bare.exr", folder_ / "right.exr"});
+  succeed("render tiny.json -o bare.exr --crop 0,0,20,32");
+  expectRefused(2, "bare.exr: lacks the channel", "merge m.exr bare.exr right.exr");
 }
 
 TEST_F(Channels, AreComparedExactly) {
-  succeed({"render", tiny_, "-o", folder_ / "a.exr", "--channels", "depth,object", "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "b.exr", "--channels", "depth,object,normal", "--set",
-           "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
-  const Outcome outcome =
-      succeed({"compare", folder_ / "a.exr", folder_ / "b.exr", "--json", folder_ / "c.json"});
-  EXPECT_TRUE(hasText(outcome.out, "object.id"));
-  const Json channels = Json::parse(readFile(folder_ / "c.json"))["channels"];
+  succeed("render tiny.json -o a.exr --channels depth,object");
+  succeed(
+      "render tiny.json -o b.exr --channels depth,object,normal "
+      "--set /scene/1/transform/translate=[0,1,0.5]");
+  EXPECT_TRUE(hasText(succeed("compare a.exr b.exr --json c.json").out, "object.id"));
+  const Json channels = jsonIn("c.json")["channels"];
   ASSERT_EQ(channels.size(), 6u);  // the channels that both files have, and the others
   EXPECT_FALSE(channels[2].contains("only_in"));
   EXPECT_EQ(channels[5]["only_in"], "B");
 
-  Warnings warnings;
   // The number of pixels that differ is counted once more by hand.
-  const auto a = readLayers(folder_ / "a.exr", ImageLimits());
-  const auto b = readLayers(folder_ / "b.exr", ImageLimits());
+  const auto a = layersOf("a.exr")[2].words, b = layersOf("b.exr")[5].words;
   std::size_t differing = 0;
-  for (std::size_t i = 0; i < a[2].words.size(); ++i) {
-    differing += a[2].words[i] != b[5].words[i];
-  }
+  for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i];
   EXPECT_GT(differing, 0u);
 
   EXPECT_EQ(channels[2]["channel"], "object.id");
@@ -175,68 +151,58 @@ TEST_F(Channels, AreComparedExactly) {
 }
 
 TEST_F(Channels, OfBothModesAreCompared) {
-  const Outcome outcome = succeed({"compare", tiny_, "--channels", "depth,object", "--json", "-"});
-  const Json channels = Json::parse(outcome.out)["channels"];
+  const Json channels = jsonOf("compare tiny.json --channels depth,object")["channels"];
   ASSERT_EQ(channels.size(), 3u);
   EXPECT_LT(channels[0]["max"], 1e-4);
   EXPECT_EQ(channels[2]["pixels_differing"], 0);
 }
 
 TEST_F(Channels, OfFramesAreThoseOfEachAlone) {
-  const auto film = [&](const std::string& name, const std::string& frames) {
-    succeed({"render", tiny_, "-o", folder_ / (name + "#.exr"), "-o",
-             folder_ / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
-             kAll + ",roughness,metallic,motion", "--quiet"});
+  const auto film = [&](const std::string& words) {
+    succeed("render tiny.json --fps 4 --channels " + kAll + ",roughness,metallic,motion " + words);
   };
 
-  film("film", "0..3");
-  film("alone", "2");
-  EXPECT_EQ(readFile(folder_ / "film2.exr"), readFile(folder_ / "alone2.exr"));
-  EXPECT_EQ(readFile(folder_ / "film.depth-2.png"), readFile(folder_ / "alone.depth-2.png"));
-  EXPECT_NE(readFile(folder_ / "film.depth-2.png"), readFile(folder_ / "film.depth-1.png"));
+  film("-o film#.exr -o film.depth-#.png --frames 0..3");
+  film("-o alone#.exr -o alone.depth-#.png --frames 2");
+  EXPECT_EQ(bytesOf("film2.exr"), bytesOf("alone2.exr"));
+  EXPECT_EQ(bytesOf("film.depth-2.png"), bytesOf("alone.depth-2.png"));
+  EXPECT_NE(bytesOf("film.depth-2.png"), bytesOf("film.depth-1.png"));
 
   // An instant has the motion since the frame before it.
-  succeed({"render", tiny_, "-o", folder_ / "instant.motion.exr", "--time", "0.5", "--fps", "4",
-           "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "frame.motion-#.exr", "--frames", "2..2", "--fps", "4",
-           "--quiet"});
-  const auto motionsIn = [&](const std::string& file) {
-    return readImage(folder_ / file, ImageLimits()).pixels;
-  };
-  EXPECT_EQ(motionsIn("instant.motion.exr"), motionsIn("frame.motion-2.exr"));
-  const auto moves = [](const Rgb& motion) { return motion != Rgb(0.0f); };
-  EXPECT_TRUE(std::ranges::any_of(motionsIn("instant.motion.exr"), moves));
+  succeed("render tiny.json --fps 4 -o instant.motion.exr --time 0.5");
+  succeed("render tiny.json --fps 4 -o frame.motion-#.exr --frames 2..2");
+  const auto motions = imageIn("instant.motion.exr").pixels;
+  EXPECT_EQ(motions, imageIn("frame.motion-2.exr").pixels);
+  EXPECT_TRUE(std::ranges::any_of(motions, [](const Rgb& m) { return m != Rgb(0.0f); }));
 }
 
 // Eight pixels are a unit, and the ball moves by (0.5, -0.25) units a second.
 TEST_F(Channels, MotionIsThatOfOneFrame) {
-  std::ofstream(folder_ / "ball.json") << R"({"whit": 1, "size": [64, 64], "cameras": {"c":
+  save("ball.json", R"({"whit": 1, "size": [64, 64], "cameras": {"c":
     {"eye": [0, 0, 9], "at": [0, 0, 0], "orthographicHeight": 8}}, "ambient": {"color": 1}, "scene":
-    [{"shape": "sphere", "motion": {"keys": [{"time": 0}, {"time": 4, "translate": [2, -1, 0]}]}}]})";
-  succeed({"render", folder_ / "ball.json", "-o", folder_ / "a.motion.exr", "--time", "2", "--fps",
-           "4", "--quiet"});
+    [{"shape": "sphere", "motion": {"keys": [{"time": 0}, {"time": 4, "translate": [2, -1, 0]}]}}]})");
+  succeed("render ball.json -o a.motion.exr --time 2 --fps 4");
 
-  const Image image = readImage(folder_ / "a.motion.exr", ImageLimits());
-  const Rgb seen = image.at(32 + 8, 32 + 4), nothing = image.at(0, 0);
+  const Image image = imageIn("a.motion.exr");
+  const Rgb seen = image.at(32 + 8, 32 + 4);
   constexpr double kRounding = 1e-5;  // of positions in float, in pixels
   EXPECT_NEAR(seen.x, 8 * 0.5 / 4, kRounding);
   EXPECT_NEAR(seen.y, 8 * 0.25 / 4, kRounding);
-  EXPECT_EQ(nothing, Rgb(0.0f));
+  EXPECT_EQ(image.at(0, 0), Rgb(0.0f));
 }
 
 TEST_F(Channels, AreNamedInAnyCase) {
-  for (const char* const name : {"a.depth.exr", "a.Depth.exr", "a.DEPTH.exr"}) {
-    succeed({"render", tiny_, "-o", folder_ / name, "--quiet"});
-    EXPECT_EQ(metadataOf(folder_ / name)["channel"], "depth") << name;
+  for (const std::string name : {"a.depth.exr", "a.Depth.exr", "a.DEPTH.exr"}) {
+    succeed("render tiny.json -o " + name);
+    EXPECT_EQ(metadataOf(name)["channel"], "depth") << name;
   }
 }
 
 TEST_F(Channels, ResumingAsksForTheSameOnes) {
   const auto kept = [&](const std::string& channels) {
-    const Outcome outcome =
-        succeed({"render", tiny_, "-o", folder_ / "a.exr", "-o", folder_ / "a.depth.png",
-                 "--resume", "--channels", channels, "--json", "-"});
-    return Json::parse(outcome.out)["kept"].get<int>();
+    return jsonOf("render tiny.json -o a.exr -o a.depth.png --resume --channels " +
+                  channels)["kept"]
+        .get<int>();
   };
 
   EXPECT_EQ(kept("depth"), 0);

@@ -1,46 +1,42 @@
 // Effects on the command line: which are on, and what compiling their kernels in costs.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 
-#include "command_json.h"
 #include "core/options.h"
 #include "embedded_data.h"
-#include "has_text.h"
-#include "picture_file.h"
 #include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
+class InfoEffects : public TinySceneTest {};
 class AbEffects : public TinySceneTest {};
 class EffectsCommand : public TinySceneTest {};
 
-TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
-  const auto line = [](const Words& more) {
-    const std::string out = runWhit(joined({"info", "effects"}, more)).out;
+TEST_F(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
+  const auto line = [&](const std::string& words) {
+    const std::string out = succeed("info effects " + words).out;
     const std::size_t begin = out.find("\n  depthOfField");
     return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin + 1) - begin);
   };
 
-  EXPECT_TRUE(hasText(line({}), "1 camera with an aperture, but --spp is 1"));
-  const std::string two = line({"--spp", "2"});
+  EXPECT_TRUE(hasText(line(""), "1 camera with an aperture, but --spp is 1"));
+  const std::string two = line("--spp 2");
   EXPECT_TRUE(hasText(two, "1 camera with an aperture"));
   EXPECT_FALSE(hasText(two, "but"));
-  EXPECT_TRUE(hasText(line({"--spp", "2", "--disable", "depthOfField"}), "disabled by --disable"));
-  EXPECT_TRUE(hasText(line({"--set", "/cameras/lens/aperture=0"}), "no camera has an aperture"));
+  EXPECT_TRUE(hasText(line("--spp 2 --disable depthOfField"), "disabled by --disable"));
+  EXPECT_TRUE(hasText(line("--set /cameras/lens/aperture=0"), "no camera has an aperture"));
 }
 
 TEST_F(AbEffects, MeasuresTheSceneTwice) {
-  const Outcome table = succeed({"bench", tiny_, "--ab-effects", "--frames", "3"});
+  const Outcome table = succeed("bench tiny.json --ab-effects --frames 3");
   EXPECT_TRUE(hasText(table.out, "tiny, effects all over effects auto, medians of 3 turns"));
   for (const char* head : {"tiny, effects auto  48x32", "tiny, effects all  48x32"}) {
     EXPECT_TRUE(hasText(table.out, head));
   }
   EXPECT_TRUE(hasText(table.out, "outside Embree"));
 
-  const Json json = jsonOf({"bench", tiny_, tiny_, "--ab-effects", "--frames", "2"});
+  const Json json = jsonOf("bench tiny.json tiny.json --ab-effects --frames 2");
   ASSERT_EQ(json["runs"].size(), 4u);
   ASSERT_EQ(json["all_over_auto"].size(), 2u);
   for (std::size_t i = 0; i < 4; i += 2) {
@@ -57,46 +53,39 @@ TEST_F(AbEffects, MeasuresTheSceneTwice) {
   EXPECT_GT(json["all_over_auto"][0]["outside_embree"].get<double>(), 0);
 }
 
-TEST_F(AbEffects, RefusesWhatDoesNotGoWithIt) {
-  for (const Words& more : {Words{"--widths"}, {"--mode", "reference"}, {"--effects", "all"}}) {
-    EXPECT_EQ(runWhit(joined({"bench", "matte", "--ab-effects"}, more)).status, 2) << more[0];
-  }
-}
-
 TEST_F(EffectsCommand, WritesATableAndAPicture) {
-  const Outcome outcome =
-      succeed({"effects", "--out", folder_ / "made", "--frames", "1", "--size", "48x30"});
+  const Outcome outcome = succeed("effects --out made --frames 1 --size 24x15");
 
-  const std::string csv = readFile(folder_ / "made/effects.csv");
+  const std::string csv = bytesOf("made/effects.csv");
   // The table has a head, a line for the matte scene and one for each effect, except for its lights
   // and their shadows, for fog, which the scene has not, and for the effects that are off unless an
   // option turns them on.
   const auto kLines = std::ptrdiff_t{2} + kEffectCount - 3 -
                       std::popcount(optionalEffectsOff(RenderOptions()).bits());
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
-  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 5) << outcome.out;
+  EXPECT_EQ(std::ranges::count(csv, '\n'), kLines) << csv;
+  EXPECT_EQ(std::ranges::count(outcome.out, '\n'), kLines + 5) << outcome.out;
 
-  const auto codes = [&](const char* name) { return storedIn(folder_ / name).codes; };
-  EXPECT_EQ(codes("made/00-matte.png").size(), 48u * 30 * 3);
-  EXPECT_NE(codes("made/00-matte.png"), codes("made/01-spotLights.png"));
+  const auto matte = storedIn("made/00-matte.png").codes;
+  EXPECT_EQ(matte.size(), 24u * 15 * 3);
+  EXPECT_NE(matte, storedIn("made/01-spotLights.png").codes);
 
   // There is a picture for each line but the head.
-  const std::ptrdiff_t pictures = std::count_if(
-      std::filesystem::directory_iterator(folder_ / "made"), std::filesystem::directory_iterator(),
-      [](const auto& entry) { return entry.path().extension() == ".png"; });
+  const std::ptrdiff_t pictures =
+      std::count_if(std::filesystem::directory_iterator(folder_ / "made"), {},
+                    [](const auto& entry) { return entry.path().extension() == ".png"; });
   EXPECT_EQ(pictures, kLines - 1);
   EXPECT_TRUE(hasText(csv, "\nabsorption,"));
 
-  const auto report = embeddedData(readFile(folder_ / "made/report.html"));
+  const auto report = embeddedData(bytesOf("made/report.html"));
   EXPECT_EQ(report["effects"].size(), static_cast<std::size_t>(kLines - 1));
   EXPECT_EQ(report["pictures"][0], "00-matte.png");
 }
 
 TEST_F(EffectsCommand, AddsOnlyWhatTheSceneHas) {
-  succeed({"effects", tiny_, "--out", folder_.path().string(), "--frames", "1"});
+  succeed("effects tiny.json --out . --frames 1");
 
-  const std::string csv = readFile(folder_ / "effects.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2) << csv;  // smooth normals, a mirror
+  const std::string csv = bytesOf("effects.csv");
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 2 + 2) << csv;  // smooth normals, a mirror
 }
 
 }  // namespace

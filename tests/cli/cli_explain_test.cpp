@@ -1,8 +1,5 @@
 // whit explain from the outside.
-#include <gtest/gtest.h>
-
-#include "command_json.h"
-#include "has_text.h"
+#include "embedded_data.h"
 #include "run_command.h"
 
 namespace whit::cli {
@@ -18,18 +15,16 @@ double addedBelow(const Json& node) {
 class Explain : public TinySceneTest {};
 
 TEST_F(Explain, TellsTheTreeOfAPixel) {
-  const std::string svg = folder_ / "rays.svg";
-  const Outcome outcome = succeed({"explain", "whitted", "--size", "96x60", "--pixel", "30,20",
-                                   "--svg", svg, "--json", folder_ / "rays.json"});
-  EXPECT_TRUE(hasText(outcome.out, "pixel 30,20: "));
-  EXPECT_TRUE(hasText(outcome.out, "\n  packets    "));
-  EXPECT_TRUE(hasText(outcome.out, "\n  reference  "));
-  EXPECT_TRUE(hasText(outcome.out, "\nprimary, weight 1.00000 1.00000 1.00000, in vacuum: "));
-  EXPECT_TRUE(hasText(outcome.out, "\n  refraction, weight "));
-  EXPECT_TRUE(hasText(outcome.out, "sky adds "));
+  const std::string out =
+      succeed("explain whitted --size 96x60 --pixel 30,20 --svg rays.svg --json rays.json").out;
+  for (const char* said :
+       {"pixel 30,20: ", "\n  packets    ", "\n  reference  ", "\n  refraction, weight ",
+        "\nprimary, weight 1.00000 1.00000 1.00000, in vacuum: ", "sky adds "}) {
+    EXPECT_TRUE(hasText(out, said));
+  }
 
   // What all rays add is the radiance of the pixel, and the scalar reference agrees with it.
-  const Json json = Json::parse(readFile(folder_ / "rays.json"));
+  const Json json = jsonIn("rays.json");
   const Json& packets = json["packets"];
   const double radiance = packets["radiance"][0].get<double>();
   EXPECT_NEAR(addedBelow(packets["samples"][0]), radiance, 1e-6 * radiance);
@@ -39,25 +34,22 @@ TEST_F(Explain, TellsTheTreeOfAPixel) {
   EXPECT_FALSE(json["reference"]["samples"][0]["children"].empty());
 
   // The drawing holds the picture and the rays as lines.
-  const std::string drawing = readFile(svg);
-  EXPECT_EQ(drawing.rfind("<svg ", 0), 0u);
-  EXPECT_TRUE(hasText(drawing, "data:image/png;base64,"));
-  EXPECT_TRUE(hasText(drawing, "<line "));
-  EXPECT_TRUE(hasText(drawing, "</svg>"));
+  const std::string drawing = bytesOf("rays.svg");
+  EXPECT_TRUE(drawing.starts_with("<svg ")) << drawing;
+  for (const char* part : {"data:image/png;base64,", "<line ", "</svg>"}) {
+    EXPECT_TRUE(hasText(drawing, part));
+  }
 }
 
 // The rays in the page's data add up to the pixel. The stages come in their order, each with
 // columns of as many floats as the tile has pixels.
 TEST_F(Explain, WritesALesson) {
-  const auto lesson = [&](const Words& more) {
-    succeed(joined({"explain", "--quiet", "--html", folder_ / "lesson.html"}, more));
-    const std::string page = readFile(folder_ / "lesson.html"), start = "id=\"data\">";
-    const std::size_t from = page.find(start) + start.size();
-    return Json::parse(page.substr(from, page.find("</script>", from) - from));
+  const auto lesson = [&](const std::string& words) -> Json {
+    succeed("explain --html lesson.html " + words);
+    return embeddedData(bytesOf("lesson.html"));
   };
 
-  const Json data =
-      lesson({"whitted", "--size", "90x50", "--pixel", "30,20", "--spp", "2", "--tile", "16"});
+  const Json data = lesson("whitted --size 90x50 --pixel 30,20 --spp 2 --tile 16");
   EXPECT_EQ(data["tile"], Json({16, 16, 32, 32}));
   // What the nodes add is the radiance of the pixel.
   for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -82,19 +74,21 @@ TEST_F(Explain, WritesALesson) {
   EXPECT_GT(data["recorded"]["depths"][1], 0);
 
   // A scene without lights gives a lesson too, even for a ray that hits nothing.
-  const Json bare = lesson({tiny_, "--set", "/lights=[]", "--size", "8x8", "--pixel", "0,0"});
-  EXPECT_EQ(bare["tile"], Json({0, 0, 8, 8}));
+  EXPECT_EQ(lesson("tiny.json --set /lights=[] --size 8x8 --pixel 0,0")["tile"],
+            Json({0, 0, 8, 8}));
 }
 
 // The room is closed: each path of light between its walls ends by chance, by no other cause.
 TEST_F(Explain, SaysThatRouletteEndsAPath) {
-  const Outcome outcome =
-      succeed({"explain", "cornell", "--size", "24x24", "--pixel", "3,12", "--indirect", "4",
-               "--roulette", "1", "--least", "0", "--json", folder_ / "rays.json"});
-  EXPECT_TRUE(hasText(outcome.out, "no indirect light: roulette\n"));
-  EXPECT_FALSE(hasText(outcome.out, "cutoff"));
+  const std::string out =
+      succeed(
+          "explain cornell --size 24x24 --pixel 3,12 --indirect 4 --roulette 1 --least 0 "
+          "--json rays.json")
+          .out;
+  EXPECT_TRUE(hasText(out, "no indirect light: roulette\n"));
+  EXPECT_FALSE(hasText(out, "cutoff"));
 
-  const std::string json = readFile(folder_ / "rays.json");
+  const std::string json = bytesOf("rays.json");
   EXPECT_TRUE(hasText(json, "\"roulette\""));
   EXPECT_FALSE(hasText(json, "\"cutoff\""));
   const Json first = Json::parse(json)["packets"]["samples"][0];
@@ -103,12 +97,8 @@ TEST_F(Explain, SaysThatRouletteEndsAPath) {
 }
 
 TEST_F(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
-  const auto said = [](const char* least) {
-    return runWhit({"explain", "whitted", "--size", "96x60", "--pixel", "30,20", "--spp", "2",
-                    "--least", least})
-        .out;
-  };
-  const std::string all = said("0"), most = said("0.2");
+  const std::string line = "explain whitted --size 96x60 --pixel 30,20 --spp 2 --least ";
+  const std::string all = succeed(line + "0").out, most = succeed(line + "0.2").out;
 
   EXPECT_FALSE(hasText(all, "more rays, adding"));
   EXPECT_TRUE(hasText(most, "more rays, adding"));
@@ -118,34 +108,19 @@ TEST_F(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
 
 // The room asks for 196 samples, whose rays nobody would read.
 TEST_F(Explain, ExplainsOneSampleOfMany) {
-  const auto primaries = [&](const Words& more, std::string& said) {
-    said = succeed(joined({"explain", "cornell", "--size", "24x24", "--pixel", "3,12", "--json",
-                           folder_ / "rays.json"},
-                          more))
-               .out;
-    return Json::parse(readFile(folder_ / "rays.json"))["packets"]["samples"].size();
-  };
-
-  std::string said;
-  EXPECT_EQ(primaries({}, said), 1u);
-  EXPECT_TRUE(hasText(said, "the picture has 196: --spp 196 explains all"));
-  EXPECT_EQ(primaries({"--spp", "4"}, said), 4u);
-  EXPECT_FALSE(hasText(said, "explains all"));
+  const std::string line = "explain cornell --size 24x24 --pixel 3,12 --json rays.json";
+  const std::string told = "the picture has 196: --spp 196 explains all";
+  EXPECT_TRUE(hasText(succeed(line).out, told));
+  EXPECT_EQ(jsonIn("rays.json")["packets"]["samples"].size(), 1u);
+  EXPECT_FALSE(hasText(succeed(line + " --spp 4").out, "explains all"));
+  EXPECT_EQ(jsonIn("rays.json")["packets"]["samples"].size(), 4u);
 }
 
 // The codes are those of the light alone, which has none where a model's background shows.
 TEST_F(Explain, NamesTheBackground) {
-  const auto said = [&](const Words& more) {
-    return succeed(joined({"explain", tiny_, "--pixel", "0,0"}, more)).out;
-  };
-  EXPECT_TRUE(hasText(said({"--background", "c8c8c8"}), "the picture shows --background c8c8c8"));
-  EXPECT_FALSE(hasText(said({}), "the picture shows --background"));
-}
-
-TEST_F(Explain, RefusesWrongUsage) {
-  for (const char* pixel : {"3,4 ", ""}) {
-    expectFailure({"explain", tiny_, "--pixel", pixel}, 2, "expected");
-  }
+  const std::string line = "explain tiny.json --pixel 0,0", told = "the picture shows --background";
+  EXPECT_TRUE(hasText(succeed(line + " --background c8c8c8").out, told + " c8c8c8"));
+  EXPECT_FALSE(hasText(succeed(line).out, told));
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
 // A model far from the origin looks as it does at the origin, and all that is said of it is in
 // coordinates of its file.
-#include <gtest/gtest.h>
-
 #include <array>
 #include <iomanip>
 #include <sstream>
 
-#include "command_json.h"
-#include "has_text.h"
 #include "io/image/image_layers.h"
 #include "run_command.h"
 
@@ -67,50 +63,40 @@ struct Format {
 };
 constexpr Format kFormats[] = {{"obj", objOf}, {"ply", plyOf}, {"gltf", gltfOf}};
 
-class FarModels : public testing::Test {
+const std::string kNote = "far from the origin: origin moved by 4000000,0,500000";
+
+class FarModels : public TinySceneTest {
  protected:
-  std::string save(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  // The hash of the picture, and what was said.
-  std::string hashOf(const Words& words, std::string* said = nullptr) const {
-    const std::string json = folder_ / "report.json";
-    const Outcome outcome = succeed(
-        joined({"render", "--size", "96x64", "-o", folder_ / "p.exr", "--json", json}, words));
-    if (said) *said = outcome.err;
-    return Json::parse(readFile(json))["image_hash"];
-  }
-  // The rays of the pixel in the middle.
-  Json explained(const Words& words) const {
-    const Words all =
-        joined({"explain", "--size", "96x64", "--pixel", "48,32", "--json", "-"}, words);
-    return Json::parse(runWhit(all).out);
-  }
-
-  TemporaryFolder folder_;
-};
-
-const std::string kNote = "model far from the origin: origin moved by 4000000,0,500000";
-
-TEST_F(FarModels, LookAsAtTheOrigin) {
-  for (const auto& [extension, text] : kFormats) {
-    for (const char* mode : {"packets", "reference"}) {
-      const std::string there = save(std::string("far.") + extension, text(1));
-      const std::string here = save(std::string("near.") + extension, text(0));
-      std::string said, nothing;
-      EXPECT_EQ(hashOf({there, "--mode", mode}, &said), hashOf({here, "--mode", mode}, &nothing))
-          << extension << " " << mode;
-      EXPECT_TRUE(hasText(said, kNote));
-      EXPECT_FALSE(hasText(nothing, "far from the origin"));
+  FarModels() {
+    for (const auto& [extension, text] : kFormats) {
+      save(std::string("far.") + extension, text(1));
+      save(std::string("near.") + extension, text(0));
     }
   }
-}
 
-TEST_F(FarModels, LookAsAtTheOriginWhileTheyMove) {
-  const std::string there = save("far.gltf", gltfOf(1)), here = save("near.gltf", gltfOf(0));
-  EXPECT_EQ(hashOf({there, "--time", "0.75"}), hashOf({here, "--time", "0.75"}));
-  EXPECT_NE(hashOf({there, "--time", "0.75"}), hashOf({there}));
+  // Renders, expects that the origin is moved for models far from it alone, and returns the hash.
+  Json hashOf(const std::string& line, bool isMoved) const {
+    const Outcome outcome =
+        succeed("render --size 48x32 -o p.exr --json report.json --channels position " + line);
+    EXPECT_EQ(hasText(outcome.err, kNote), isMoved) << line << outcome.err;
+    return jsonIn("report.json")["image_hash"];
+  }
+  void expectAlike(const std::string& far, const std::string& near) const {
+    EXPECT_EQ(hashOf(far, true), hashOf(near, false)) << far;
+  }
+};
+
+TEST_F(FarModels, LookAsAtTheOrigin) {
+  for (const Format& format : kFormats) {
+    for (const std::string mode : {" --mode packets", " --mode reference"}) {
+      const std::string words = format.extension + mode;
+      expectAlike("far." + words, "near." + words);
+    }
+  }
+
+  // While they move, too.
+  expectAlike("far.gltf --time 0.75", "near.gltf --time 0.75");
+  EXPECT_NE(hashOf("far.gltf --time 0.75", true), hashOf("far.gltf", true));
 }
 
 // A scene file says itself where its models are.
@@ -120,68 +106,58 @@ TEST_F(FarModels, LookAsAtTheOriginInScenesThatBringThemBack) {
       "lights": [{"position": [3, 6, 4], "intensity": 60}], "scene": [{"model": )" +
            item + "}]}";
   };
-  for (const auto& [extension, text] : kFormats) {
-    const std::string ending = std::string(".") + extension;
-    save("far" + ending, text(1));
-    save("near" + ending, text(0));
-    std::string said;
-    const std::string there =
-        save("far.json",
-             scene("\"far" + ending + R"(", "transform": {"translate": [-4000000, 0, -500000]})"));
-    EXPECT_EQ(hashOf({there}, &said), hashOf({save("near.json", scene("\"near" + ending + "\""))}));
-    EXPECT_FALSE(hasText(said, "far from the origin"));
+  for (const Format& format : kFormats) {
+    const std::string ending = std::string(".") + format.extension + "\"";
+    save("far.json",
+         scene("\"far" + ending + R"(, "transform": {"translate": [-4000000, 0, -500000]})"));
+    save("near.json", scene("\"near" + ending));
+    EXPECT_EQ(hashOf("far.json", false), hashOf("near.json", false));
   }
 }
 
+// The eye, the target and cameras are in the coordinates of the file.
 TEST_F(FarModels, AreSeenFromTheEyeInTheirFile) {
-  const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
-  EXPECT_EQ(hashOf({there, "--eye", "4000000.5,2.25,500003", "--at", "4000000.125,0.5,500000"}),
-            hashOf({here, "--eye", "0.5,2.25,3", "--at", "0.125,0.5,0"}));
-}
+  expectAlike("far.obj --eye 4000000.5,2.25,500003 --at 4000000.125,0.5,500000",
+              "near.obj --eye 0.5,2.25,3 --at 0.125,0.5,0");
 
-TEST_F(FarModels, TakeCamerasInTheirFile) {
-  const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
-  const std::string far = save("pose.json", R"({"eye": [4000000.5, 2.25, 500003],
-                                               "at": [4000000.125, 0.5, 500000], "fov": 50})");
-  const std::string near =
-      R"(/cameras/c={"eye": [0.5, 2.25, 3], "at": [0.125, 0.5, 0], "fov": 50})";
-  EXPECT_EQ(hashOf({there, "--camera", far}), hashOf({here, "--set", near, "--camera", "c"}));
+  save("pose.json",
+       R"({"eye": [4000000.5, 2.25, 500003], "at": [4000000.125, 0.5, 500000], "fov": 50})");
+  expectAlike(
+      "far.obj --camera pose.json",
+      R"(near.obj --camera c --set /cameras/c={"eye":[0.5,2.25,3],"at":[0.125,0.5,0],"fov":50})");
 }
 
 TEST_F(FarModels, AreMeasuredInTheirFile) {
-  const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
-  const auto info = [](const std::string& model) { return jsonOf({"info", model}); };
-  EXPECT_EQ(info(there)["origin"], Json::parse("[4000000, 0, 500000]"));
-  EXPECT_EQ(info(there)["bounds"]["lower"], Json::parse("[3999999, 0, 499999]"));
-  EXPECT_EQ(info(here)["origin"], Json::parse("[0, 0, 0]"));
+  const Json info = jsonOf("info far.obj");
+  EXPECT_EQ(info["origin"], Json({4000000, 0, 500000}));
+  EXPECT_EQ(info["bounds"]["lower"], Json({3999999, 0, 499999}));
+  EXPECT_EQ(jsonOf("info near.obj")["origin"], Json({0, 0, 0}));
   EXPECT_TRUE(
-      hasText(runWhit({"info", there}).out, "  origin      moved by [4000000.0,0.0,500000.0]\n"));
-  EXPECT_FALSE(hasText(runWhit({"info", here}).out, "origin"));
+      hasText(succeed("info far.obj").out, "  origin      moved by [4000000.0,0.0,500000.0]\n"));
+  EXPECT_FALSE(hasText(succeed("info near.obj").out, "origin"));
 
-  const auto numbers = [](const Json& json, double share) {
-    auto three = json.get<std::array<double, 3>>();
-    for (std::size_t i = 0; i < 3; ++i) three[i] -= share * kAway[i];
-    return three;
-  };
-  const Json far = explained({there}), near = explained({here});
-  for (const char* mode : {"packets", "reference"}) {
-    const Json& a = far[mode]["samples"][0];
-    const Json& b = near[mode]["samples"][0];
-    // Numbers of millions have steps of 2^-31.
-    constexpr double kStep = 0x1p-31;
+  // The rays of the pixel in the middle.
+  const Json far = jsonOf("explain far.obj --size 48x32 --pixel 24,16");
+  const Json near = jsonOf("explain near.obj --size 48x32 --pixel 24,16");
+  for (const std::string mode : {"packets", "reference"}) {
+    const Json &a = far[mode]["samples"][0], &b = near[mode]["samples"][0];
+    hashOf("far.obj --mode " + mode, true);
+    const std::vector<ImageLayer> layers = readLayers(folder_ / "p.exr", ImageLimits());
+
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(numbers(a["origin"], 1)[i], numbers(b["origin"], 0)[i], kStep);
-      EXPECT_NEAR(numbers(a["surface"]["position"], 1)[i], numbers(b["surface"]["position"], 0)[i],
-                  kStep);
-    }
+      // Numbers of millions have steps of 2^-31.
+      const auto expectFar = [&](const Json& there, const Json& here) {
+        EXPECT_NEAR(there[i].get<double>() - kAway[i], here[i].get<double>(), 0x1p-31);
+      };
+      expectFar(a["origin"], b["origin"]);
+      expectFar(a["surface"]["position"], b["surface"]["position"]);
 
-    // The channel is in single precision.
-    hashOf({there, "--mode", mode, "--channels", "position"});
-    for (const ImageLayer& layer : readLayers(folder_ / "p.exr", ImageLimits())) {
-      if (!layer.name.starts_with("position.")) continue;
-      const auto axis = static_cast<std::size_t>(layer.name.back() - 'X');
-      const double position = a["surface"]["position"][axis];
-      EXPECT_NEAR(layer.floats().at(32 * 96 + 48), position, 1e-4 + 0x1p-23 * position);
+      // The channel is in single precision.
+      const std::string name = std::string("position.") + "XYZ"[i];
+      const auto layer = std::ranges::find(layers, name, &ImageLayer::name);
+      ASSERT_NE(layer, layers.end()) << name;
+      const double position = a["surface"]["position"][i];
+      EXPECT_NEAR(layer->floats().at(16 * 48 + 24), position, 1e-4 + 0x1p-23 * position);
     }
   }
 }

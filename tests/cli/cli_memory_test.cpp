@@ -1,8 +1,7 @@
 // Images that claim or take more than --max-memory, in whole scenes.
 #include <sys/resource.h>
 
-#include "cli/run_program.h"
-#include "has_text.h"
+#include "cli/run_command.h"
 #include "images/image_samples.h"
 #include "sanitized.h"
 
@@ -33,9 +32,16 @@ class MemoryLimit : public ImageTest {
     save("scene.json", Bytes(text.begin(), text.end()));
     return path("scene.json");
   }
-  static Outcome load(const std::string& scene, const std::string& gigabytes,
-                      const std::string& threads = "2") {
-    return runWhit({"info", scene, "--quiet", "--max-memory", gigabytes, "--threads", threads});
+  // Loads a scene of these images.
+  Outcome loadAll(const std::vector<std::string>& images, const std::string& gigabytes,
+                  const std::string& threads = "2") {
+    return runWhit({"info", sceneOf(images), "--max-memory", gigabytes, "--threads", threads});
+  }
+  // The peak memory of the program for a small image, in bytes.
+  std::uint64_t peakOfASmallOne() {
+    save("small.tga", tga(1, 1, {1, 2, 3}));
+    EXPECT_EQ(loadAll({"small.tga"}, "0.1").status, 0);
+    return peakOfPrograms();
   }
 
   static void setSize(Bytes& file, std::size_t at, std::initializer_list<int> bytes) {
@@ -51,7 +57,7 @@ class MemoryLimit : public ImageTest {
     setSize(frame, 2 + 69 + 5, {0x75, 0x30, 0x75, 0x30});
 
     writeExr(path("a.exr"), Image(2, 2), {});
-    Bytes window = ImageTest::load(path("a.exr"));
+    Bytes window = load(path("a.exr"));
     for (const std::string name : {"dataWindow", "displayWindow"}) {
       const std::string key = name + '\0' + "box2i" + '\0';
       const auto found = std::search(window.begin(), window.end(), key.begin(), key.end());
@@ -75,15 +81,11 @@ constexpr std::uint64_t kPages = 4 << 20;
 
 TEST_F(MemoryLimit, HugeClaimsAreRefusedBeforeMemoryIsTaken) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
-  save("small.tga", tga(1, 1, {1, 2, 3}));
-  ASSERT_EQ(load(sceneOf({"small.tga"}), "0.1").status, 0);
   // The peak of all programs so far is compared with the peak after those with huge images.
-  const std::uint64_t before = peakOfPrograms();
+  const std::uint64_t before = peakOfASmallOne();
 
   for (const std::string& name : hugeClaims()) {
-    const Outcome outcome = load(sceneOf({name}), "0.1");
-    EXPECT_EQ(outcome.status, 5) << name << outcome.err;
-    EXPECT_TRUE(hasText(outcome.err, name + ": 30000x30000"));
+    expectFailed(loadAll({name}, "0.1"), 5, name + ": 30000x30000");
     EXPECT_LT(peakOfPrograms(), before + kPages) << name;
   }
 }
@@ -91,14 +93,9 @@ TEST_F(MemoryLimit, HugeClaimsAreRefusedBeforeMemoryIsTaken) {
 // The image takes 90 MB of pixels and as much again while it is decoded.
 TEST_F(MemoryLimit, WhatDecodingTakesIsWithinTheLimit) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
-  save("small.tga", tga(1, 1, {1, 2, 3}));
-  ASSERT_EQ(load(sceneOf({"small.tga"}), "0.1").status, 0);
-  const std::uint64_t before = peakOfPrograms();
-
+  const std::uint64_t before = peakOfASmallOne();
   save("a.png", png(6000, 5000, 8, 2, Bytes(5000 * 18001, 0)));
-  const Outcome outcome = load(sceneOf({"a.png"}), "0.15");
-  EXPECT_EQ(outcome.status, 5) << outcome.err;
-  EXPECT_TRUE(hasText(outcome.err, "a.png"));
+  expectFailed(loadAll({"a.png"}, "0.15"), 5, "a.png");
   EXPECT_LT(peakOfPrograms(), before + 150'000'000 + kPages);
 }
 
@@ -111,12 +108,11 @@ TEST_F(MemoryLimit, ImagesWaitForEachOther) {
     save(names.back(), png(2000, 1500, 8, 2, Bytes(1500 * 6001, 0)));
   }
 
-  const std::string scene = sceneOf(names);
-  for (const std::string threads : {"1", "6"}) {
-    const Outcome outcome = load(scene, "0.11", threads);
+  for (const char* threads : {"1", "6"}) {
+    const Outcome outcome = loadAll(names, "0.11", threads);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
-  EXPECT_EQ(load(scene, "0.07").status, 5);
+  EXPECT_EQ(loadAll(names, "0.07").status, 5);
 }
 
 }  // namespace

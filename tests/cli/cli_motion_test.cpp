@@ -1,17 +1,12 @@
 // Films of a scene that moves: each frame follows from its time alone.
-#include <gtest/gtest.h>
-
-#include "command_json.h"
-#include "has_text.h"
 #include "io/gltf_files.h"
-#include "picture_file.h"
 #include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
 // A triangle that rises, and one that shrinks away to nothing.
-std::string writeMoving(const TemporaryFolder& folder) {
+std::string movingModel() {
   GltfBuilder b;
   const std::string shown = triangle(b);
   const std::string times =
@@ -25,88 +20,68 @@ std::string writeMoving(const TemporaryFolder& folder) {
     return "{\"input\":" + times + ",\"output\":" + output + "}";
   };
 
-  std::ofstream(folder / "moving.gltf") << b.json(
+  return b.json(
       "\"meshes\":[{\"primitives\":[" + shown +
       "]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[2,0,0]}],\"animations\":[{"
       "\"name\":\"up\",\"channels\":[" +
       channel(0, 0, "translation") + "," + channel(1, 1, "scale") + "],\"samplers\":[" +
       sampler(up) + "," + sampler(away) + "]}]");
-  return folder / "moving.gltf";
 }
 
 class Motion : public TinySceneTest {
  protected:
-  const std::string moving_ = writeMoving(folder_);
+  Motion() { save("moving.gltf", movingModel()); }
+  std::vector<float> valuesOf(const std::string& name) const { return storedIn(name).values; }
 };
 
 TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
-  const auto film = [&](const std::string& name, const std::string& frames,
-                        const std::string& threads) {
-    succeed({"render", moving_, "-o", folder_ / (name + "#.exr"), "--frames", frames, "--fps", "2",
-             "--size", "64x40", "--threads", threads, "--quiet"});
-  };
-
-  film("film", "0..4", "2");
-  film("alone", "3", "1");
-  film("many", "3", "8");
-  const std::string third = readFile(folder_ / "film3.exr");
-  EXPECT_NE(third, readFile(folder_ / "film2.exr"));
-  EXPECT_TRUE(third == readFile(folder_ / "alone3.exr"));
-
-  const auto pixels = [&](const std::string& name) { return storedIn(folder_ / name).values; };
-  EXPECT_EQ(pixels("film3.exr"), pixels("many3.exr"));
+  const std::string line = "render moving.gltf --fps 2 --size 64x40 ";
+  succeed(line + "-o film#.exr --frames 0..4 --threads 2");
+  succeed(line + "-o alone#.exr --frames 3 --threads 1");
+  succeed(line + "-o many#.exr --frames 3 --threads 8");
+  const std::string third = bytesOf("film3.exr");
+  EXPECT_NE(third, bytesOf("film2.exr"));
+  EXPECT_TRUE(third == bytesOf("alone3.exr"));
+  EXPECT_EQ(valuesOf("film3.exr"), valuesOf("many3.exr"));
 
   // The option --time gives the picture of the frame at that time.
-  succeed({"render", moving_, "-o", folder_ / "instant.exr", "--time", "1.5", "--size", "64x40",
-           "--exposure", "0", "--quiet"});
-  succeed({"render", moving_, "-o", folder_ / "frame#.exr", "--frames", "3", "--fps", "2", "--size",
-           "64x40", "--exposure", "0", "--quiet"});
-  EXPECT_EQ(pixels("instant.exr"), pixels("frame3.exr"));
+  succeed(line + "-o instant.exr --exposure 0 --time 1.5");
+  succeed(line + "-o frame#.exr --exposure 0 --frames 3");
+  EXPECT_EQ(valuesOf("instant.exr"), valuesOf("frame3.exr"));
 }
 
 TEST_F(Motion, AShippedFilmHasTheSameFramesInParts) {
-  const auto film = [&](const std::string& name, const std::string& frames,
-                        const std::string& threads) {
-    succeed({"render", "orrery", "-o", folder_ / (name + "##.exr"), "--frames", frames, "--size",
-             "32x20", "--threads", threads, "--quiet"});
-  };
-  const auto pixels = [&](const std::string& name) { return storedIn(folder_ / name).values; };
-
-  film("whole", "0..99", "2");
-  film("one", "57", "1");
-  film("eight", "57", "8");
-  EXPECT_NE(pixels("whole57.exr"), pixels("whole56.exr"));
-  EXPECT_EQ(pixels("whole57.exr"), pixels("one57.exr"));
-  EXPECT_EQ(pixels("whole57.exr"), pixels("eight57.exr"));
+  const std::string line = "render orrery --size 32x20 ";
+  succeed(line + "-o whole##.exr --frames 40..60 --threads 2");
+  succeed(line + "-o one##.exr --frames 57 --threads 1");
+  succeed(line + "-o eight##.exr --frames 57 --threads 8");
+  EXPECT_NE(valuesOf("whole57.exr"), valuesOf("whole56.exr"));
+  EXPECT_EQ(valuesOf("whole57.exr"), valuesOf("one57.exr"));
+  EXPECT_EQ(valuesOf("whole57.exr"), valuesOf("eight57.exr"));
 }
 
 TEST_F(Motion, IsTimedAndListed) {
-  const Outcome info = runWhit({"info", moving_});
-  EXPECT_TRUE(hasText(info.out, "animation   up: 2 s, moves 2 nodes\n"));
-  const Json listed = jsonOf({"info", moving_})["animations"];
-  EXPECT_EQ(listed, Json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
+  EXPECT_TRUE(hasText(succeed("info moving.gltf").out, "animation   up: 2 s, moves 2 nodes\n"));
+  EXPECT_EQ(jsonOf("info moving.gltf")["animations"],
+            Json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
 
-  const Outcome film = runWhit({"render", moving_, "-o", folder_ / "f#.png", "--frames", "0..1",
-                                "--size", "32x20", "--stats", "--json", folder_ / "f.json"});
+  const Outcome film =
+      succeed("render moving.gltf -o f#.png --frames 0..1 --size 32x20 --stats --json f.json");
   EXPECT_TRUE(hasText(film.err, "updateScene"));
-  EXPECT_GT(Json::parse(readFile(folder_ / "f.json"))["updateScene_ms"], 0);
+  EXPECT_GT(jsonIn("f.json")["updateScene_ms"], 0);
 }
 
 TEST_F(Motion, ACameraPathIsLookedAlongAtAnInstant) {
-  succeed({"render", tiny_, "-o", folder_ / "t.png", "--time", "0.5", "--quiet"});
-  succeed({"render", tiny_, "-o", folder_ / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
-
-  const auto codes = [&](const std::string& name) { return storedIn(folder_ / name).codes; };
-  EXPECT_EQ(codes("t.png"), codes("f1.png"));
+  succeed("render tiny.json -o t.png --time 0.5");
+  succeed("render tiny.json -o f#.png --frames 1 --fps 2");
+  EXPECT_EQ(storedIn("t.png").codes, storedIn("f1.png").codes);
 }
 
 TEST_F(Motion, WrongUsageIsTold) {
-  expectFailure(
-      {"render", moving_, "-o", folder_ / "f#.png", "--frames", "0..1", "--animation", "upp"}, 2,
-      "did you mean 'up'?");
-  std::ofstream(folder_ / "still.obj") << kTriangleObj;
-  expectFailure({"render", folder_ / "still.obj", "-o", folder_ / "m.png", "--time", "1"}, 2,
-                "nothing moves in still");
+  expectFailure("render moving.gltf -o f#.png --frames 0..1 --animation upp", 2,
+                "did you mean 'up'?");
+  save("still.obj", kTriangleObj);
+  expectFailure("render still.obj -o m.png --time 1", 2, "nothing moves in still");
 }
 
 }  // namespace

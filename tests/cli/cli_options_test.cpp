@@ -1,27 +1,38 @@
 // Option values, presets, and the parser, without running the program.
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "command_line/help_text.h"
 #include "command_line/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
-#include "has_text.h"
 #include "output/image_output.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-// The message of the usage error that `words` give; empty when they parse.
-std::string usageError(const std::vector<std::string>& words) {
+// The options that all commands have, and what they set.
+struct Listed {
+  Listed() {
+    listCommonOptions(list, common);
+    list.operands("SCENE", "a scene", 1, 1, scenes);
+  }
+
   CommonOptions common;
   std::vector<std::string> scenes;
   OptionList list;
-  listCommonOptions(list, common);
-  list.operands("SCENE", "a scene", 1, 1, scenes);
+};
+
+// What these words set behind the name of a scene.
+CommonOptions allParsed(const std::string& line) {
+  Listed listed;
+  EXPECT_TRUE(parseOptions("test", "test", listed.list, split("scene " + line)));
+  return listed.common;
+}
+RenderOptions parsed(const std::string& line) { return allParsed(line).render; }
+
+// The message of the usage error that the words give; empty when they parse.
+std::string usageError(const std::string& line) {
   try {
-    parseOptions("test", "test", list, words);
+    allParsed(line);
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::usage);
     return error.what();
@@ -29,24 +40,10 @@ std::string usageError(const std::vector<std::string>& words) {
   return "";
 }
 
-CommonOptions parsed(std::vector<std::string> words) {
-  CommonOptions common;
-  std::vector<std::string> scenes;
-  OptionList list;
-  listCommonOptions(list, common);
-  list.operands("SCENE", "a scene", 1, 1, scenes);
-  words.push_back("scene");
-  EXPECT_TRUE(parseOptions("test", "test", list, words));
-  return common;
-}
-
 TEST(Options, TakesEveryKindOfValue) {
-  const RenderOptions o =
-      parsed({"--size",    "640x360",        "--eye",     "-1,2.5,-3e-1", "--fov=35",
-              "--crop",    "1,2,30,40",      "--packet",  "16",           "--batch",
-              "frame",     "--robust",       "off",       "--effects",    "all",
-              "--disable", "shadows,mirror", "--tonemap", "filmic",       "--strict"})
-          .render;
+  const RenderOptions o = parsed(
+      "--size 640x360 --eye -1,2.5,-3e-1 --fov=35 --crop 1,2,30,40 --packet 16 --batch frame "
+      "--robust off --effects all --disable shadows,mirror --tonemap filmic --strict");
   EXPECT_EQ(o.size, (ImageSize{640, 360}));
   EXPECT_EQ(o.eye, Vec3d(-1, 2.5, -0.3));
   EXPECT_EQ(o.fov, 35.0f);
@@ -60,52 +57,43 @@ TEST(Options, TakesEveryKindOfValue) {
   EXPECT_TRUE(o.strict);
 }
 
-TEST(Options, LaterValueWins) { EXPECT_EQ(parsed({"--spp", "2", "--spp", "4"}).render.spp, 4); }
+TEST(Options, LaterValueWins) { EXPECT_EQ(parsed("--spp 2 --spp 4").spp, 4); }
 
-TEST(Options, AutomaticPacketIsZero) { EXPECT_EQ(parsed({"--packet", "auto"}).render.packet, 0); }
-
-struct BadWords {
-  std::vector<std::string> words;
-  std::string said;
-};
+TEST(Options, AutomaticPacketIsZero) { EXPECT_EQ(parsed("--packet auto").packet, 0); }
 
 TEST(Options, SaysWhatWasExpected) {
-  const BadWords cases[] = {
-      {{"s", "--size", "10x10x10"}, "WIDTHxHEIGHT"},
-      {{"s", "--size", "65537x1"}, "65536"},
-      {{"s", "--eye", "1,2,x"}, "x,y,z"},
-      {{"s", "--eye", "1,2,nan"}, "x,y,z"},
-      {{"s", "--eye", "1,2,inf"}, "x,y,z"},
-      {{"s", "--crop", "4,0,4,9"}, "x0 < x1"},
-      {{"s", "--crop", "-1,0,4,9"}, "x0 < x1"},
-      {{"s", "--spp", "1.5"}, "whole number"},
-      {{"s", "--depth", "65"}, "from 0 to 64"},
-      {{"s", "--cutoff", "-1"}, "from 0 to 1"},
-      {{"s", "--threads", "100000"}, "from 0 to 1024"},
-      {{"s", "--packet", "5"}, "auto|1|4|8|16"},
-      {{"s", "--mode", "packet"}, "did you mean 'packets'?"},
-      {{"s", "--tonemap", "filmc"}, "did you mean 'filmic'?"},
-      {{"s", "--robust", "yes"}, "on or off"},
-      {{"s", "--disable", "vertexColours"}, "did you mean 'vertexColors'?"},
-      {{"s", "--fov", "180"}, "from 0.001 to 179"},
-      {{"s", "--sise", "10x10"}, "did you mean '--size'?"},
-      {{"s", "--sise=10x10"}, "no option '--sise'"},
-      {{"s", "-z"}, "no option '-z'"},
-  };
-  for (const BadWords& c : cases) {
-    const std::string words = testing::PrintToString(c.words);
-    const std::string error = usageError(c.words);
-    EXPECT_TRUE(hasText(error, c.said)) << words;
+  for (const auto& [line, said] :
+       {std::pair{"--size 10x10x10", "WIDTHxHEIGHT"},
+        {"--size 65537x1", "65536"},
+        {"--eye 1,2,x", "x,y,z"},
+        {"--eye 1,2,nan", "x,y,z"},
+        {"--eye 1,2,inf", "x,y,z"},
+        {"--crop 4,0,4,9", "x0 < x1"},
+        {"--crop -1,0,4,9", "x0 < x1"},
+        {"--spp 1.5", "whole number"},
+        {"--depth 65", "from 0 to 64"},
+        {"--cutoff -1", "from 0 to 1"},
+        {"--threads 100000", "from 0 to 1024"},
+        {"--packet 5", "auto|1|4|8|16"},
+        {"--mode packet", "did you mean 'packets'?"},
+        {"--tonemap filmc", "did you mean 'filmic'?"},
+        {"--quality fine", "did you mean 'good'?"},  // a preset of former versions
+        {"--robust yes", "on or off"},
+        {"--disable vertexColours", "did you mean 'vertexColors'?"},
+        {"--fov 180", "from 0.001 to 179"},
+        {"--zoom 0", "--zoom"},
+        {"--azimuth left", "--azimuth"},
+        {"--sise 10x10", "did you mean '--size'?"},
+        {"--sise=10x10", "no option '--sise'"},
+        {"-z", "no option '-z'"},
+        {"-- --odd.json", "one word too many: '--odd.json'"}}) {
+    EXPECT_TRUE(hasText(usageError(line), said)) << line;
   }
 }
 
 std::string helpOf(HelpTier tier, int width) {
-  static CommonOptions common;
-  static std::vector<std::string> scenes;
-  OptionList list;
-  listCommonOptions(list, common);
-  list.operands("SCENE", "a scene", 1, 1, scenes);
-  return helpText("test SCENE", "Tests.", list, tier, width);
+  const Listed listed;
+  return helpText("test SCENE", "Tests.", listed.list, tier, width);
 }
 
 TEST(Help, HasTheOptionsOfEveryDayFirst) {
@@ -147,16 +135,12 @@ TEST(Help, SaysWhatThePresetsStandFor) {
   EXPECT_TRUE(hasText(help, "  standard                  the defaults\n"));
   // What is said makes the same options as the preset.
   for (const QualityPreset& preset : qualityPresets()) {
-    std::vector<std::string> words;
-    std::istringstream said(preset.options);
-    for (std::string word; said >> word;) words.push_back(word);
-    RenderOptions made = parsed(words).render;
-    made.quality = parsed({"--quality", preset.name}).render.quality;
-    EXPECT_EQ(made, parsed({"--quality", preset.name}).render) << preset.name;
+    const RenderOptions named = parsed("--quality " + std::string(preset.name));
+    RenderOptions made = parsed(std::string(preset.options));
+    made.quality = named.quality;
+    EXPECT_EQ(made, named) << preset.name;
   }
 }
-
-TEST(Options, WordsAfterTwoDashesAreNoOptions) { EXPECT_EQ(usageError({"--", "--odd.json"}), ""); }
 
 TEST(Options, EveryChoiceGoesBothWays) {
   RenderOptions options;
@@ -189,43 +173,28 @@ TEST(Options, EveryChoiceGoesBothWays) {
 
 // The words of an option stand in the order of the enumeration.
 TEST(Options, ChoicesAreNamedRight) {
-  EXPECT_EQ(parsed({"--mode", "reference"}).render.mode, Mode::reference);
-  EXPECT_EQ(parsed({"--effects", "auto"}).render.effects, EffectChoice::automatic);
-  EXPECT_EQ(parsed({"--tonemap", "none"}).render.toneCurve, ToneCurve::none);
-  EXPECT_EQ(parsed({"--tonemap", "reinhard"}).render.toneCurve, ToneCurve::reinhard);
-  EXPECT_EQ(parsed({"--quality", "good"}).render.quality, Quality::good);
-  EXPECT_EQ(parsed({"--quality", "standard"}).render.quality, Quality::standard);
-  EXPECT_EQ(parsed({"--quality", "reference"}).render.quality, Quality::reference);
-  EXPECT_EQ(parsed({"--batch", "tile"}).render.batch, Batch::tile);
+  EXPECT_EQ(parsed("--mode reference").mode, Mode::reference);
+  EXPECT_EQ(parsed("--effects auto").effects, EffectChoice::automatic);
+  EXPECT_EQ(parsed("--tonemap none").toneCurve, ToneCurve::none);
+  EXPECT_EQ(parsed("--tonemap reinhard").toneCurve, ToneCurve::reinhard);
+  EXPECT_EQ(parsed("--quality good").quality, Quality::good);
+  EXPECT_EQ(parsed("--quality reference").quality, Quality::reference);
+  EXPECT_EQ(parsed("--batch tile").batch, Batch::tile);
 }
 
-TEST(Quality, StandardIsTheDefaults) {
-  const RenderOptions defaults, standard = parsed({"--quality", "standard"}).render;
-  EXPECT_EQ(standard.spp, defaults.spp);
-  EXPECT_EQ(standard.depth, defaults.depth);
-  EXPECT_EQ(standard.cutoff, defaults.cutoff);
-  EXPECT_EQ(standard.shading, defaults.shading);
-  EXPECT_EQ(standard.mode, defaults.mode);
-}
-
-TEST(Quality, AFormerPresetLeadsToTheNearOne) {
-  EXPECT_TRUE(hasText(usageError({"--quality", "fine"}), "did you mean 'good'?"));
-}
+TEST(Quality, StandardIsTheDefaults) { EXPECT_EQ(parsed("--quality standard"), RenderOptions()); }
 
 TEST(Options, OfAModelsViewAreMembersOfItsScene) {
-  const CommonOptions common = parsed({"--azimuth", "-30", "--zoom", "1.25", "--ground"});
-  EXPECT_EQ(common.load.settings,
-            (std::vector<std::string>{"/azimuth=-30", "/zoom=1.25", "/ground=true"}));
-  EXPECT_NE(usageError({"--zoom", "0"}), "");
-  EXPECT_NE(usageError({"--azimuth", "left"}), "");
+  EXPECT_EQ(allParsed("--azimuth -30 --zoom 1.25 --ground").load.settings,
+            (Words{"/azimuth=-30", "/zoom=1.25", "/ground=true"}));
 }
 
 TEST(Quality, PresetsGiveWayToWhatIsGiven) {
-  const RenderOptions good = parsed({"--depth", "6", "--quality", "good"}).render;
+  const RenderOptions good = parsed("--depth 6 --quality good");
   EXPECT_EQ(good.depth, 6);
   EXPECT_EQ(good.spp, 16);
   EXPECT_EQ(good.shading.lightCutoff, 1e-3f);
-  const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
+  const RenderOptions reference = parsed("--quality reference --spp 2");
   EXPECT_EQ(reference.spp, 2);
   EXPECT_EQ(reference.depth, kDepthLimit);
   EXPECT_EQ(reference.cutoff, 1e-5f);
@@ -234,7 +203,7 @@ TEST(Quality, PresetsGiveWayToWhatIsGiven) {
 
 // Everything that is left out by default.
 TEST(Quality, GoodHasAllEffectsAndIsNamedFirst) {
-  const RenderOptions good = parsed({"--quality", "good", "--ambient-samples", "4"}).render;
+  const RenderOptions good = parsed("--quality good --ambient-samples 4");
   EXPECT_GE(good.spp, 16);
   EXPECT_GT(good.glossy, 0);
   EXPECT_GT(good.lightSamples, 1);
@@ -244,23 +213,25 @@ TEST(Quality, GoodHasAllEffectsAndIsNamedFirst) {
 }
 
 TEST(Background, GoesBothWays) {
-  EXPECT_EQ(parsed({"--background", "white"}).render.background.color,
-            (std::array<std::uint8_t, 3>{255, 255, 255}));
-  EXPECT_EQ(optionText(parsed({"--background", "#f80"}).render, "background"), "ff8800");
-  EXPECT_EQ(optionText(parsed({"--background", "none"}).render, "background"), "transparent");
-  for (const char* text : {"sky", "transparent", "ff8000", "000000"}) {
-    EXPECT_EQ(optionText(parsed({"--background", text}).render, "background"), text);
+  for (const auto& [text, said] : {std::pair{"sky", "sky"},
+                                   {"transparent", "transparent"},
+                                   {"none", "transparent"},
+                                   {"ff8000", "ff8000"},
+                                   {"000000", "000000"},
+                                   {"#f80", "ff8800"},
+                                   {"white", "ffffff"}}) {
+    EXPECT_EQ(optionText(parsed("--background " + std::string(text)), "background"), said);
   }
-  for (const char* text : {"", "ffff", "ff80zz", "ff800000", "#", "Sky"}) {
-    EXPECT_TRUE(hasText(usageError({"s", "--background", text}), "--background: expected")) << text;
+  for (const std::string text : {"\"\"", "ffff", "ff80zz", "ff800000", "#", "Sky"}) {
+    EXPECT_TRUE(hasText(usageError("--background " + text), "--background: expected")) << text;
   }
 }
 
 TEST(Frames, RangesAndNames) {
-  EXPECT_EQ(parseFrameRange("7").first, 7);
-  EXPECT_EQ(parseFrameRange("7").last, 7);
-  EXPECT_EQ(parseFrameRange("3..12").first, 3);
-  EXPECT_EQ(parseFrameRange("3..12").last, 12);
+  for (const auto& [text, first, last] : {std::tuple{"7", 7, 7}, {"3..12", 3, 12}}) {
+    EXPECT_EQ(parseFrameRange(text).first, first);
+    EXPECT_EQ(parseFrameRange(text).last, last);
+  }
   for (const char* bad : {"", "a", "3..", "..3", "5..3", "-1..3", "1...3", "1..99999999999"}) {
     EXPECT_THROW(parseFrameRange(bad), Error) << bad;
   }

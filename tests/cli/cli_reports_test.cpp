@@ -1,14 +1,9 @@
 // Tables and summaries of made-up frames, whose numbers are known.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "command_line/progress_bar.h"
 #include "core/text.h"
-#include "has_text.h"
 #include "output/frame_summary.h"
 #include "output/json_report.h"
-#include "run_program.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -55,28 +50,10 @@ TEST(Summary, MedianFrameIsOneOfTheFrames) {
   EXPECT_EQ(medianFrame(madeUpRun(1)).frameMs, 10);
 }
 
-TEST(Summary, LanesAndRates) {
-  EXPECT_EQ(lanesFilled({300, 400}), 0.75);
+// RunJson has lanes and rates of other numbers.
+TEST(Summary, OfNoRaysAndNoTimeIsZero) {
   EXPECT_EQ(lanesFilled({0, 0}), 0);
-  EXPECT_EQ(mraysPerSecond(3'000'000, 1000), 3);
   EXPECT_EQ(mraysPerSecond(1, 0), 0);
-}
-
-TEST(StageTable, NamesStagesTimesAndRays) {
-  RunSummary run = madeUpRun(3);
-  run.floorMs = {16};
-  const std::string table = stageTable(run);
-  for (const std::string_view name : kStageNames) {
-    EXPECT_TRUE(hasText(table, name)) << name;
-  }
-  for (const RayKindRow& kind : kRayKinds) {
-    EXPECT_TRUE(hasText(table, kind.name)) << kind.name;
-  }
-
-  EXPECT_TRUE(hasText(table, "frame 20.00 ms (50.0 a second), least 10.00, 95 % within 30.00"));
-  EXPECT_TRUE(hasText(table, "     1.600     8.0\n"));  // 8 % of 20 ms
-  EXPECT_TRUE(hasText(table, "75.0\n"));
-  EXPECT_TRUE(hasText(table, "frame over floor 1.25"));
 }
 
 // Every number of the table with its unit, from numbers whose results are known by heart.
@@ -181,20 +158,20 @@ TEST(RunJson, HasTheseNumbers) {
   EXPECT_LT(json["peak_rss_mb"].get<double>(), 1e5);
 }
 
+class MemoryMb : public TinySceneTest {};
+
 // 1024 x 1024 texels of 4 bytes are 4.2 MB. Mip levels and the tables of kernels hold no more than
 // twice as much again.
-TEST(MemoryMb, IsInMillionsOfBytes) {
-  const auto memoryOf = [](int side) {
-    const TemporaryFolder folder;
+TEST_F(MemoryMb, IsInMillionsOfBytes) {
+  const auto memoryOf = [&](int side) {
     // An uncompressed TGA with 24 bits a pixel.
     const char low = static_cast<char>(side % 256), high = static_cast<char>(side / 256);
     const std::string head{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, low, high, low, high, 24, 0x20};
-    std::ofstream(folder / "a.tga") << head << std::string(3 * std::size_t(side) * side, 'x');
-    std::ofstream(folder / "a.json") << R"({"whit": 1, "textures": {"t": {"image": "a.tga"}},
-        "materials": {"m": {"diffuseMap": "t"}}, "scene": [{"shape": "quad", "material": "m"}]})";
-    const Outcome outcome = runWhit({"info", folder / "a.json", "--json", "-", "--quiet"});
-    return Json::parse(outcome.out).at("memory_mb").get<double>();
+    save("a.tga", head + std::string(3 * std::size_t(side) * side, 'x'));
+    return jsonOf("info a.json")["memory_mb"].get<double>();
   };
+  save("a.json", R"({"whit": 1, "textures": {"t": {"image": "a.tga"}},
+      "materials": {"m": {"diffuseMap": "t"}}, "scene": [{"shape": "quad", "material": "m"}]})");
   const double more = memoryOf(1024) - memoryOf(16);
   EXPECT_GT(more, 4.1);
   EXPECT_LT(more, 4.2 * 3);
@@ -280,7 +257,10 @@ TEST(StageTable, TellsTheRateThatIsTrueOfAFilm) {
   run.tracedAndWrittenMs = 150;
 
   const std::string table = stageTable(run);
-  EXPECT_TRUE(hasText(table, "(50.0 a second traced, 20.0 a second traced and written), least"));
+  EXPECT_TRUE(
+      hasText(table,
+              "(50.0 a second traced, 20.0 a second traced and written), least 10.00, 95 % within "
+              "30.00"));
   EXPECT_TRUE(hasText(
       table, "  writing the image                     40.000          30.000 waited for\n"));
 }

@@ -1,14 +1,10 @@
 // Pictures on a terminal: the program writes to a pseudo-terminal, and what it wrote is decoded.
-#include <gtest/gtest.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 
-#include <map>
 #include <regex>
 
-#include "has_text.h"
-#include "picture_file.h"
-#include "run_program.h"
+#include "run_command.h"
 
 namespace whit::cli {
 namespace {
@@ -68,33 +64,25 @@ std::string decoded(const std::string& base64) {
   return bytes;
 }
 
-class TerminalPictures : public testing::Test {
+class TerminalPictures : public TinySceneTest {
  protected:
-  void SetUp() override { writeTinyScene(folder_); }
-
-  Outcome render(const Variables& variables, std::vector<std::string> words = {}, int status = 0) {
-    words.insert(words.begin(), {"render", "tiny.json"});
-    const Outcome outcome = runOnTerminal(words, folder_, variables);
+  Outcome render(const Variables& variables, const std::string& words = "", int status = 0) {
+    const Outcome outcome = runOnTerminal(split("render tiny.json " + words), folder_, variables);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     return outcome;
   }
-  std::vector<std::uint8_t> codesOf(const std::string& file) {
-    return storedIn(folder_ / file).codes;
-  }
   // The data, decoded, is a PNG with the pixels of tiny.png.
   void expectThePicture(const std::string& data) {
-    std::ofstream(folder_ / "shown.png", std::ios::binary) << decoded(data);
-    EXPECT_EQ(codesOf("shown.png"), codesOf("tiny.png"));
+    save("shown.png", decoded(data));
+    EXPECT_EQ(storedIn("shown.png").codes, storedIn("tiny.png").codes);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(TerminalPictures, ByTheProtocolOfKitty) {
   for (const Variables& variables : {Variables{{"TERM", "xterm-kitty"}},
                                      {{"TERM", "xterm"}, {"TERM_PROGRAM", "ghostty"}},
                                      {{"TERM", "xterm"}, {"KONSOLE_VERSION", "220401"}}}) {
-    const Outcome outcome = render(variables, {"--size", "200x140"});
+    const Outcome outcome = render(variables, "--size 200x140");
 
     const std::regex part("\x1b_G([a-zA-Z0-9=,]*);([^\x1b]*)\x1b\\\\");
     std::string data, rest = outcome.out;
@@ -130,15 +118,15 @@ TEST_F(TerminalPictures, ByTheProtocolOfIterm) {
 TEST_F(TerminalPictures, AsHalfBlocksInColor) {
   const Outcome outcome = render({{"TERM", "xterm"}, {"COLORTERM", "truecolor"}});
 
-  const RawImage image = storedIn(folder_ / "tiny.png");
-  const std::size_t channels = image.codes.size() / (48 * 32);
+  const RawImage image = storedIn("tiny.png");
+  ASSERT_EQ(image.channels, 3);
 
   // A half block shows two rows of pixels, the upper one in its own color.
   std::string expected;
   for (std::size_t y = 0; y < 32; y += 2) {
     for (std::size_t x = 0; x < 48; ++x) {
       for (const std::size_t row : {y, y + 1}) {
-        const std::uint8_t* const c = &image.codes[channels * (row * 48 + x)];
+        const std::uint8_t* const c = &image.codes[3 * (row * 48 + x)];
         expected += (row == y ? "\x1b[38;2;" : "\x1b[48;2;") + std::to_string(c[0]) + ";" +
                     std::to_string(c[1]) + ";" + std::to_string(c[2]) + "m";
       }
@@ -158,10 +146,10 @@ TEST_F(TerminalPictures, LargeOnesFitTheTerminal) {
     return count;
   };
 
-  const std::string wide = render(colors, {"--size", "300x40"}).out;
+  const std::string wide = render(colors, "--size 300x40").out;
   EXPECT_EQ(blocks(wide.substr(0, wide.find('\n'))), 100u);
-  const std::string high = render(colors, {"--size", "300x490"}).out;
-  EXPECT_EQ(std::count(high.begin(), high.end(), '\n'), 49);
+  const std::string high = render(colors, "--size 300x490").out;
+  EXPECT_EQ(std::ranges::count(high, '\n'), 49);
   EXPECT_EQ(blocks(high.substr(0, high.find('\n'))), 60u);
 }
 
@@ -170,19 +158,16 @@ TEST_F(TerminalPictures, NothingWhereItWouldNotBeSeen) {
   EXPECT_EQ(render({{"TERM", "xterm"}}).out, "");
   EXPECT_EQ(render({{"TERM", "dumb"}, {"COLORTERM", "truecolor"}}).out, "");
   EXPECT_EQ(render({{"TERM", "screen"}, {"TMUX", "/tmp/x"}, {"KITTY_WINDOW_ID", "1"}}).out, "");
-  EXPECT_EQ(render(kitty, {"--quiet"}).out, "");
-  EXPECT_EQ(render(kitty, {"-o", "a.png"}).out, "");
-  const std::string json = render(kitty, {"--json", "-"}).out;
-  EXPECT_EQ(json.substr(0, 1), "{") << json;
+  EXPECT_EQ(render(kitty, "--quiet").out, "");
+  EXPECT_EQ(render(kitty, "-o a.png").out, "");
+  const std::string json = render(kitty, "--json -").out;
+  EXPECT_TRUE(json.starts_with("{")) << json;
 }
 
 TEST_F(TerminalPictures, AskedForByADash) {
-  const Outcome shown = render({{"TERM", "xterm-kitty"}}, {"-o", "-", "--quiet"});
-  EXPECT_EQ(shown.out.substr(0, 3), "\x1b_G");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny.png"));
-
-  const Outcome refused = render({{"TERM", "xterm"}}, {"-o", "-"}, 2);
-  EXPECT_TRUE(hasText(refused.err, "shows no pictures"));
+  EXPECT_TRUE(render({{"TERM", "xterm-kitty"}}, "-o - --quiet").out.starts_with("\x1b_G"));
+  EXPECT_FALSE(exists("tiny.png"));
+  EXPECT_TRUE(hasText(render({{"TERM", "xterm"}}, "-o -", 2).err, "shows no pictures"));
 }
 
 }  // namespace

@@ -1,38 +1,35 @@
 // whit-verify: the table, its JSON and page, and the sheet of scenes.
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "embedded_data.h"
-#include "has_text.h"
 #include "run_command.h"
 
 namespace whit::cli {
 namespace {
 
-using Json = nlohmann::json;
+class Verify : public TinySceneTest {
+ protected:
+  // Runs whit-verify in the folder, without real scenes.
+  Outcome verify(const std::string& line) const {
+    const TemporaryFolder said;
+    const auto prepare = [&] {
+      (void)chdir(folder_.path().c_str());
+      unsetenv("WHIT_DATA");
+    };
+    const int status = waitFor(startWhit(split(line), said, prepare, WHIT_VERIFY_PROGRAM));
+    return {status, readFile(said / "stdout"), readFile(said / "stderr")};
+  }
+};
 
-Outcome runVerify(const std::vector<std::string>& words) {
-  const TemporaryFolder folder;
-  const int status = waitFor(startWhit(
-      words, folder, [] {}, WHIT_VERIFY_PROGRAM));
-  return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
-}
-
-TEST(Verify, TellsWorstAndBoundOfEveryRun) {
-  const TemporaryFolder folder;
-  const std::string page = (folder.path() / "hard.html").string();
-  const Outcome outcome =
-      runVerify({"--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
+TEST_F(Verify, TellsWorstAndBoundOfEveryRun) {
+  const Outcome outcome = verify("--only H38,H58 --only H16 --json - --html hard.html");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 
   const Json json = Json::parse(outcome.out);
   EXPECT_TRUE(json["machine"].contains("simd"));
   ASSERT_FALSE(json["cases"].empty());
   for (const Json& row : json["cases"]) {
-    for (const char* key :
-         {"case", "title", "input", "worst", "bound", "margin", "simd", "packet", "holds"}) {
+    for (const std::string& key : split("case title input worst bound margin simd packet holds")) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
     EXPECT_EQ(row["holds"], true);
@@ -43,12 +40,11 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
                               " runs: 2 hold, 0 broken, 1 reported without a bound";
 
   // The page has the worst run of each case.
-  const Json report = embeddedData(readFile(page));
+  const Json report = embeddedData(bytesOf("hard.html"));
   EXPECT_EQ(report["machine"], json["machine"]);
   EXPECT_EQ(report["summary"], summary);
   ASSERT_EQ(report["cases"].size(), 3u);
-  for (const Json& row : report["cases"])
-    EXPECT_EQ(std::count(json["cases"].begin(), json["cases"].end(), row), 1);
+  for (const Json& row : report["cases"]) EXPECT_EQ(std::ranges::count(json["cases"], row), 1);
 
   EXPECT_EQ(report["pictures"][0]["name"], "closed-room");
   EXPECT_TRUE(outcome.err.ends_with(summary + "\n")) << outcome.err;
@@ -57,39 +53,32 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
 }
 
 // A scene whose files are missing is named, and the other scenes are compared.
-TEST(Verify, HashesWithoutRealScenes) {
-  const TemporaryFolder folder;
-  const int status = waitFor(startWhit(
-      {"--hashes", "48x30", "sponza-mirror", "matte"}, folder, [] { unsetenv("WHIT_DATA"); },
-      WHIT_VERIFY_PROGRAM));
-
-  const std::string err = readFile(folder / "stderr");
-  EXPECT_EQ(status, 0) << err;
-  EXPECT_TRUE(hasText(readFile(folder / "stdout"), "as published"));
-  EXPECT_TRUE(hasText(err, "left out: sponza-mirror ("));
-  EXPECT_TRUE(hasText(err, "WHIT_DATA is not set"));
+TEST_F(Verify, HashesWithoutRealScenes) {
+  const Outcome outcome = verify("--hashes 48x30 sponza-mirror matte");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(hasText(outcome.out, "as published"));
+  EXPECT_TRUE(hasText(outcome.err, "left out: sponza-mirror ("));
+  EXPECT_TRUE(hasText(outcome.err, "WHIT_DATA is not set"));
 }
 
-TEST(Verify, UnknownCasesNameTheNearest) {
-  const Outcome outcome = runVerify({"--only", "H51x"});
+TEST_F(Verify, UnknownCasesNameTheNearest) {
+  const Outcome outcome = verify("--only H51x");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_TRUE(hasText(outcome.err, "'H51'"));
 }
 
-TEST(Verify, ASheetOfAllScenes) {
-  const TemporaryFolder folder;
-  const std::string sheet = (folder.path() / "hard.png").string();
-  const Outcome outcome = runVerify({"--sheet", sheet});
+TEST_F(Verify, ASheetOfAllScenes) {
+  const Outcome outcome = verify("--sheet hard.png");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(hasText(outcome.out, "closed-room\n"));
-  EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
+  EXPECT_EQ(bytesOf("hard.png").substr(1, 3), "PNG");
 }
 
-TEST(Verify, HelpListsTheOptions) {
-  const Outcome outcome = runVerify({"--help"});
+TEST_F(Verify, HelpListsTheOptions) {
+  const Outcome outcome = verify("--help");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* option : {"--only", "--json", "--html", "--sheet"}) {
-    EXPECT_TRUE(hasText(outcome.out, option)) << option;
+    EXPECT_TRUE(hasText(outcome.out, option));
   }
 }
 

@@ -39,24 +39,6 @@ std::vector<EffectStep> madeUpSteps() {
           {"mirror", madeUpRun({15, 45, 15, 15, 45}, 3000), 1.75}};
 }
 
-TEST(EffectsRows, HaveMediansOfDifferencesWithinATurn) {
-  const nlohmann::ordered_json rows = effectsRows(madeUpSteps());
-  ASSERT_EQ(rows.size(), 2u);
-  const auto number = [&](std::size_t row, const char* key) {
-    return rows[row][key].get<double>();
-  };
-
-  // The turns in which the machine is slow do not change the medians.
-  EXPECT_DOUBLE_EQ(number(0, "added_ms"), 10);
-  EXPECT_DOUBLE_EQ(number(0, "added_outside_embree_ms"), 6);
-  EXPECT_DOUBLE_EQ(number(0, "added_rays"), 2048);
-  EXPECT_DOUBLE_EQ(number(1, "frame_ms"), 15);
-  EXPECT_DOUBLE_EQ(number(1, "added_ms"), 5);
-  EXPECT_DOUBLE_EQ(number(1, "added_outside_embree_ms"), 3);
-  EXPECT_DOUBLE_EQ(number(1, "added_rays"), 3000);
-  EXPECT_DOUBLE_EQ(number(1, "added_memory_mb"), 0.25);
-}
-
 TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   const std::vector<EffectStep> steps = madeUpSteps();
   const RunRatio ratio = ratioOf(steps[1].run, steps[0].run);
@@ -88,8 +70,6 @@ TEST(EffectsRows, SayWhatIsNoise) {
   std::vector<EffectStep> steps = madeUpSteps();
   steps.push_back({"caustics", madeUpRun({15.5, 44, 16, 15.25, 46}, 3000), 1.75});
   nlohmann::ordered_json rows = effectsRows(steps);
-  EXPECT_EQ(rows[1]["added_ms_low"], 5);
-  EXPECT_EQ(rows[1]["added_ms_high"], 15);
   EXPECT_EQ(rows[2]["added_ms"], 0.5);
   EXPECT_EQ(rows[2]["added_ms_low"], -1);
   EXPECT_EQ(rows[2]["added_ms_high"], 1);
@@ -114,6 +94,7 @@ TEST(EffectsRows, LeaveOutTheOutermostOfManyTurns) {
   EXPECT_EQ(row["added_ms_high"], 16);
 }
 
+// The turns in which the machine is slow do not change the medians of the differences.
 TEST(EffectsRows, AreTheLinesOfTheCsvFile) {
   EXPECT_EQ(csvOf(effectsRows(madeUpSteps())),
             "effect,frame_ms,added_ms,added_ms_low,added_ms_high,added_outside_embree_ms,"
@@ -128,7 +109,6 @@ TEST(EffectsReport, HasTheRows) {
   const std::vector<EffectStep> steps = madeUpSteps();
   const nlohmann::ordered_json data = effectsJson(steps, {"00-matte.png", "01-mirror.png"});
   EXPECT_EQ(data["effects"], effectsRows(steps));
-  EXPECT_EQ(data["effects"][1]["added_rays"], 3000);
   EXPECT_EQ(data["pictures"].size(), 2u);
   EXPECT_EQ(data["turns"], 5);
   EXPECT_EQ(embeddedData(reportPage(data)), data);

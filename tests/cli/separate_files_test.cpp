@@ -1,11 +1,5 @@
 // No command writes over a file that it reads, or writes two results to one file.
-#include <gtest/gtest.h>
-
-#include <map>
-#include <sstream>
-
-#include "has_text.h"
-#include "run_command.h"
+#include "run_here.h"
 
 namespace whit::cli {
 namespace {
@@ -51,41 +45,36 @@ constexpr Refusal kRefusals[] = {
     {"compare tiny.json --heatmap z.png --json z.png", "it is the same as 'z.png'"},
 };
 
-// The contents of a folder's files, by their names.
-std::map<std::string, std::string> contentsOf(const TemporaryFolder& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::directory_iterator(folder.path())) {
-    if (entry.is_regular_file()) contents[entry.path().filename()] = readFile(entry.path());
-  }
-  return contents;
-}
-
 TEST_F(TinySceneTest, NoFileIsWrittenOverAnother) {
   fs::create_symlink("tiny.json", folder_ / "link.json");
   fs::create_directory(folder_ / "sub");
   for (const char* file : {"a.png", "b.png", "f0001.png", "part.exr", "other.exr"}) {
-    std::ofstream(folder_ / file) << "not looked at";
+    save(file, "not looked at");
   }
-  std::ofstream(folder_ / "eye.json") << R"({"eye": [0, 2, 6], "at": [0, 1, 0]})";
-  const auto before = contentsOf(folder_);
+  save("eye.json", R"({"eye": [0, 2, 6], "at": [0, 1, 0]})");
+
+  const auto contents = [&] {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      if (entry.is_regular_file()) all[entry.path().filename()] = readFile(entry.path());
+    }
+    return all;
+  };
+  const auto before = contents();
 
   for (const Refusal& refusal : kRefusals) {
     SCOPED_TRACE(std::string("whit ") + refusal.line);
-    std::istringstream line(refusal.line);
-    const Words words{std::istream_iterator<std::string>(line), {}};
-    const Outcome outcome = runWhit(words, [&] { (void)chdir(folder_.path().c_str()); });
-
-    expectFailed(outcome, 2, refusal.both);
-    EXPECT_EQ(contentsOf(folder_), before);
+    expectFailed(runHere(refusal.line, folder_), 2, refusal.both);
+    EXPECT_EQ(contents(), before);
   }
 }
 
 // Devices take several results, and a file that is not read may be replaced.
 TEST_F(TinySceneTest, OtherFilesAreWritten) {
-  succeed({"explain", tiny_, "--pixel", "1,1", "--json", "/dev/null", "--quiet"});
-  std::ofstream(folder_ / "f1.png") << "old";
-  succeed({"render", tiny_, "--frames", "0..1", "-o", folder_ / "f#.png", "--quiet"});
-  EXPECT_NE(readFile(folder_ / "f1.png"), "old");
+  succeed("explain tiny.json --pixel 1,1 --json /dev/null");
+  save("f1.png", "old");
+  succeed("render tiny.json --frames 0..1 -o f#.png");
+  EXPECT_NE(bytesOf("f1.png"), "old");
 }
 
 }  // namespace

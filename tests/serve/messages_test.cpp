@@ -25,12 +25,10 @@ TEST(Messages, AreRead) {
 
 TEST(Messages, WhatIsNotOneIsRefusedWithItsLine) {
   const std::string many(kMessageLines + 1, '\n');
-  for (const std::string& body :
-       {std::string("left 3"), std::string("left 3 x"), std::string("left 3 4 5"),
-        std::string("left nan 1"), std::string("left inf 1"), std::string("left 1e6 0"),
-        std::string("fit now"), std::string("size 0 10 1"), std::string("no 1"),
-        std::string(" fit"), std::string("set depth\t2"), std::string("set depth 2\r"),
-        std::string("fit\0", 4), "set a " + std::string(kMessageBytes, 'x'), many}) {
+  for (const std::string& body : std::vector<std::string>{
+           "left 3", "left 3 x", "left 3 4 5", "left nan 1", "left inf 1", "left 1e6 0", "fit now",
+           "size 0 10 1", "no 1", " fit", "set depth\t2", "set depth 2\r", std::string("fit\0", 4),
+           "set a " + std::string(kMessageBytes, 'x'), many}) {
     SCOPED_TRACE(body.substr(0, 40));
     EXPECT_THROW(readMessages(body), Error);
   }

@@ -89,6 +89,11 @@ class Serving : public testing::Test {
     return answer ? answer->status : 0;
   }
 
+  std::string bodyOf(const std::string& path, const httplib::Headers& headers = {}) const {
+    const auto answer = client().Get(path, headers);
+    return answer ? answer->body : "no answer";
+  }
+
   int post(const std::string& body, const httplib::Headers& headers = {}) const {
     const auto answer = client().Post(root_ + "input", headers, body, "text/plain");
     return answer ? answer->status : 0;
@@ -124,24 +129,21 @@ class Serving : public testing::Test {
 
   // Waits for a shot that is as wanted, and returns null if none comes.
   template <typename Wanted>
-  std::shared_ptr<const Shot> waitFor(const Wanted& wanted) {
+  static std::shared_ptr<const Shot> waitFor(ServedSession& session, const Wanted& wanted) {
     const Stopwatch waited;
     for (std::uint64_t newest = 0; waited.ms() < kLongEnoughMs;) {
-      auto shot = session_->wait(newest);
+      auto shot = session.wait(newest);
       if (shot && wanted(*shot)) return shot;
       if (shot) newest = shot->number;
     }
     return nullptr;
   }
-  bool waitForShot() {
-    return waitFor([](const Shot&) { return true; }) != nullptr;
+  template <typename Wanted>
+  std::shared_ptr<const Shot> waitFor(const Wanted& wanted) {
+    return waitFor(*session_, wanted);
   }
-  // Waits for the picture at rest of a page of this size.
-  std::shared_ptr<const Shot> waitForSize(int width, int height) {
-    return waitFor([&](const Shot& shot) {
-      const Json window = parseJson(shot.live, "live")["window"];
-      return shot.exact && window[0] == width && window[1] == height;
-    });
+  std::shared_ptr<const Shot> waitForShot() {
+    return waitFor([](const Shot&) { return true; });
   }
 
   // Acts as a page that acknowledges its pictures. Returns when it has drawn `pictures` of them.
@@ -191,8 +193,8 @@ TEST_F(Serving, OnlyThoseWithTheTokenAreAnswered) {
   std::string wrong = root_;
   wrong[5] ^= 1;
   for (const std::string& path :
-       {std::string("/"), wrong, root_.substr(0, 32), wrong + "stream", std::string("/etc/passwd"),
-        "/" + root_, root_.substr(0, 20) + "/", std::string("/../../etc/passwd")}) {
+       std::vector<std::string>{"/", wrong, root_.substr(0, 32), wrong + "stream", "/etc/passwd",
+                                "/" + root_, root_.substr(0, 20) + "/", "/../../etc/passwd"}) {
     EXPECT_EQ(status(path), 403) << path;
   }
 }
@@ -228,18 +230,17 @@ TEST_F(Serving, OtherHostsAndOriginsAreRefused) {
   EXPECT_EQ(post("fit", {{"Origin", "http://localhost:1"}}), 403);
 }
 
-// Who sees one of these sentences must know which of the two has to be changed.
-TEST_F(Serving, ARefusedOriginIsNotCalledAWrongToken) {
-  const auto adviceOn = [this](const std::string& path, const httplib::Headers& headers) {
-    const auto answer = client().Get(path, headers);
-    return answer ? answer->body : "";
-  };
-
-  const std::string origin = adviceOn(root_, {{"Origin", "http://evil.example"}});
+// Who is refused learns what to do, and which of two things has to be changed.
+TEST_F(Serving, ARefusalSaysWhatToDo) {
+  const std::string origin = bodyOf(root_, {{"Origin", "http://evil.example"}});
   EXPECT_TRUE(hasText(origin, "another site"));
   EXPECT_FALSE(hasText(origin, "token"));
-  const std::string token = adviceOn("/", {});
-  EXPECT_TRUE(hasText(token, "lacks the token"));
+  EXPECT_TRUE(hasText(bodyOf("/"), "lacks the token"));
+  EXPECT_TRUE(hasText(bodyOf("/" + std::string(32, '0') + "/stream"),
+                      "open the address that whit serve printed last"));
+  const std::string host = bodyOf(root_, {{"Host", "box.example:8765"}});
+  EXPECT_TRUE(hasText(host, "localhost"));
+  EXPECT_TRUE(hasText(host, "ssh"));
 }
 
 TEST_F(Serving, OtherMethodsAndEncodingsAreRefused) {
@@ -257,15 +258,17 @@ TEST_F(Serving, EveryAnswerHasItsHeaders) {
   EXPECT_TRUE(waitForShot());
 
   struct Row {
-    const char *path, *type, *file;
+    const char *path, *type;
     int status;
+    const char *file = "", *begin = "";  // the name of a download, and how its bytes begin
   };
-  const Row rows[] = {{"", "text/html; charset=utf-8", "", 200},
-                      {"picture.png", "image/png", "attachment; filename=\"tiny.png\"", 200},
-                      {"picture.exr", "image/x-exr", "attachment; filename=\"tiny.exr\"", 200},
-                      {"none", "text/plain", "", 404},
-                      {"input", "text/plain", "", 405},
-                      {"../", "text/plain", "", 404}};
+  const Row rows[] = {
+      {"", "text/html; charset=utf-8", 200},
+      {"picture.png", "image/png", 200, "attachment; filename=\"tiny.png\"", "\x89PNG"},
+      {"picture.exr", "image/x-exr", 200, "attachment; filename=\"tiny.exr\"", "\x76\x2f\x31\x01"},
+      {"none", "text/plain", 404},
+      {"input", "text/plain", 405},
+      {"../", "text/plain", 404}};
 
   const std::regex policy(
       "default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
@@ -287,6 +290,7 @@ TEST_F(Serving, EveryAnswerHasItsHeaders) {
     EXPECT_EQ(answer->status, row.status) << row.path;
     EXPECT_EQ(answer->get_header_value("Content-Type"), row.type) << row.path;
     EXPECT_EQ(answer->get_header_value("Content-Disposition"), row.file) << row.path;
+    EXPECT_TRUE(answer->body.starts_with(row.begin)) << row.path;
     expectCommon(*answer, row.path);
   }
 
@@ -384,7 +388,6 @@ TEST_F(Serving, EveryVerbIsServed) {
     if (shot) shot = session_->wait(shot->number);
     ASSERT_TRUE(shot) << line;
   }
-  session_->watch(-1);
 }
 
 // What a line of the page changes in what the page is then told: a pointer into the JSON, and words
@@ -410,9 +413,8 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
                       {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
 
   session_->watch(1);
-  std::shared_ptr<const Shot> shot;
-  const auto textAt = [&](const char* pointer) {
-    for (const std::string* text : {&shot->live, &shot->settled}) {
+  const auto textAt = [](const Shot& shot, const char* pointer) {
+    for (const std::string* text : {&shot.live, &shot.settled}) {
       const Json json = parseJson(*text, "shot");
       const Json::json_pointer place(pointer);
       if (!json.contains(place)) continue;
@@ -421,28 +423,20 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
     return std::string("nothing");
   };
 
-  ASSERT_TRUE(waitForShot());
-  shot = session_->wait(0);
   for (const Row& row : rows) {
     // The command is that of the picture at rest.
-    Stopwatch waited;
-    while (!shot->exact && waited.ms() < kLongEnoughMs) {
-      if (const auto next = session_->wait(shot->number)) shot = next;
-    }
-    const std::string before = textAt(row.pointer);
-    const auto isTold = [&] {
-      const std::string now = textAt(row.pointer);
+    const auto rest = waitFor([](const Shot& shot) { return shot.exact; });
+    ASSERT_TRUE(rest) << row.line;
+    const std::string before = textAt(*rest, row.pointer);
+    const auto isTold = [&](const Shot& shot) {
+      const std::string now = textAt(shot, row.pointer);
       return row.value ? now.find(row.value) != std::string::npos : now != before;
     };
-    EXPECT_FALSE(isTold()) << row.line << " has nothing to change";
+    EXPECT_FALSE(isTold(*rest)) << row.line << " has nothing to change";
 
     ASSERT_TRUE(session_->post(view::readMessages(row.line))) << row.line;
-    for (waited = Stopwatch(); !isTold() && waited.ms() < kLongEnoughMs;) {
-      if (const auto next = session_->wait(shot->number)) shot = next;
-    }
-    EXPECT_TRUE(isTold()) << row.line << ": " << textAt(row.pointer) << ", as " << before;
+    EXPECT_TRUE(waitFor(isTold)) << row.line << " leaves " << before;
   }
-  session_->watch(-1);
 }
 
 // Starts without a scene. The shipped ones are aa and the moving ab.
@@ -466,12 +460,9 @@ class ServingNoScene : public Serving {
   void post(const std::string& line) { open_->post(view::readMessages(line)); }
   // Waits until this text of a shot holds these words.
   bool isTold(const std::function<std::string(const Shot&)>& text, const std::string& words) {
-    constexpr double kLongEnoughMs = 30'000;
-    for (const Stopwatch waited; waited.ms() < kLongEnoughMs;) {
-      shot_ = open_->wait(shot_ ? shot_->number : 0);
-      if (shot_ && text(*shot_).find(words) != std::string::npos) return true;
-    }
-    return false;
+    shot_ = waitFor(*open_,
+                    [&](const Shot& shot) { return text(shot).find(words) != std::string::npos; });
+    return shot_ != nullptr;
   }
   static std::string live(const Shot& shot) { return shot.live; }
   static std::string settled(const Shot& shot) { return shot.settled; }
@@ -489,7 +480,7 @@ TEST_F(ServingNoScene, OffersTheShippedOnes) {
   post("scene " + options_.scene);
   EXPECT_TRUE(isTold(live, "no shipped scene has this name"));
   post("scene aa");
-  EXPECT_TRUE(isTold(tables, "\"scene\":\"aa\""));
+  ASSERT_TRUE(isTold(tables, "\"scene\":\"aa\""));
   EXPECT_EQ(shot_->tables->find("\"scenes\""), std::string::npos);
   EXPECT_TRUE(isTold(settled, "whit render aa "));
   post("scene aa");
@@ -524,17 +515,13 @@ TEST_F(ServingNoScene, MeasuringPausesWhatPlays) {
 
 // What the table of verbs leaves to the page is in the page's script.
 TEST_F(Serving, ThePageDoesWhatTheVerbsLeaveToIt) {
-  const auto answer = client().Get(root_);
-  ASSERT_TRUE(answer);
+  const std::string page = bodyOf(root_);
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(answer->body, found, std::regex("const here = \\{([^}]*)\\}")));
+  ASSERT_TRUE(std::regex_search(page, found, std::regex("const here = \\{([^}]*)\\}")));
   const std::string here = found[1];
 
   session_->watch(1);
-  std::shared_ptr<const Shot> shot;
-  while (!shot) shot = session_->wait(0);
-  session_->watch(-1);
-  const Json lines = parseJson(*shot->tables, "tables")["lines"];
+  const Json lines = parseJson(*waitForShot()->tables, "tables")["lines"];
 
   for (const view::Verb& verb : view::verbs()) {
     if (verb.act || verb.keys.empty()) continue;
@@ -548,20 +535,14 @@ TEST_F(Serving, ThePageDoesWhatTheVerbsLeaveToIt) {
 // A page that is gone cannot say that its keys are let go.
 TEST_F(Serving, KeysThatNobodyHoldsAnyMoreAreLetGo) {
   session_->watch(1);
-  std::shared_ptr<const Shot> shot;
   const auto becomes = [&](bool exact) {
-    constexpr double kLongEnoughMs = 20'000;
-    for (const Stopwatch waited; (!shot || shot->exact != exact) && waited.ms() < kLongEnoughMs;) {
-      if (const auto next = session_->wait(shot ? shot->number : 0)) shot = next;
-    }
-    return shot && shot->exact == exact;
+    return waitFor([&](const Shot& shot) { return shot.exact == exact; }) != nullptr;
   };
 
   EXPECT_TRUE(becomes(true));
   ASSERT_EQ(post("hold 0 0 0 1 0 0"), 204);
   EXPECT_TRUE(becomes(false));
   EXPECT_TRUE(becomes(true));
-  session_->watch(-1);
 }
 
 TEST_F(Serving, APageGetsPictures) { EXPECT_EQ(watch(12), 12); }
@@ -588,25 +569,15 @@ TEST_F(Serving, FewConnectionsHaveFewThreads) {
   EXPECT_LT(threadsNow(), few);
 }
 
-// Who is refused learns what to do.
-TEST_F(Serving, ARefusalSaysWhatToDo) {
-  const auto bodyOf = [&](const std::string& path, const httplib::Headers& headers = {}) {
-    const auto answer = client().Get(path, headers);
-    return answer ? answer->body : "no answer";
-  };
-  const std::string restarted = bodyOf("/" + std::string(32, '0') + "/stream");
-  EXPECT_TRUE(hasText(restarted, "open the address that whit serve printed last"));
-  const std::string other = bodyOf(root_, {{"Host", "box.example:8765"}});
-  EXPECT_TRUE(hasText(other, "localhost"));
-  EXPECT_TRUE(hasText(other, "ssh"));
-}
-
 // A view that nobody has steered fits a page that is narrower than the scene's picture.
 TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   session_->watch(1);
   const auto commandAt = [&](int width, int height) {
     EXPECT_TRUE(session_->post(view::readMessages(formatted("size %d %d 1", width, height))));
-    const auto shot = waitForSize(width, height);
+    // The picture at rest of a page of this size.
+    const auto shot = waitFor([&](const Shot& shot) {
+      return shot.exact && parseJson(shot.live, "live")["window"] == Json({width, height});
+    });
     if (!shot) return std::string("no picture");
     return parseJson(shot->settled, "settled")["command"].get<std::string>();
   };
@@ -615,7 +586,6 @@ TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   const std::string upright = commandAt(20, 40);
   EXPECT_TRUE(hasText(upright, "--eye"));
   EXPECT_FALSE(hasText(commandAt(64, 40), "--eye"));
-  session_->watch(-1);
 }
 
 // Addresses are printed as browsers and ssh take them.
@@ -640,19 +610,6 @@ TEST_F(Serving, ItsPlaceCanBePasted) {
   if (!hasSix) GTEST_SKIP() << "NOT checked: IPv6 is not here";
   EXPECT_EQ(placeOf("::1"), "[::1]:");
   EXPECT_EQ(placeOf("::"), "[::1]:");
-}
-
-TEST_F(Serving, ADownloadIsAnExr) {
-  std::thread page([&] { watch(100000, false); });
-  EXPECT_TRUE(waitForShot());
-
-  EXPECT_EQ(post("size 48 32 1\nset depth 1"), 204);
-  EXPECT_TRUE(waitForSize(48, 32));
-  const auto answer = client().Get(root_ + "picture.exr");
-  server_->stop();
-  page.join();
-  ASSERT_TRUE(answer && answer->status == 200);
-  EXPECT_EQ(answer->body.substr(0, 4), "\x76\x2f\x31\x01");
 }
 
 TEST_F(Serving, HugeRequestsEnd) {
@@ -736,11 +693,11 @@ TEST_F(Serving, StrangersDoNotDisplaceAPage) {
 
 TEST_F(Serving, GarbageEndsItsOwnConnectionOnly) {
   for (const std::string& bytes :
-       {std::string("\0\0\0\0\r\n\r\n", 8), std::string("GET\r\n\r\n"), std::string(5000, '\xff'),
-        std::string("GET / HTTP/9.9\r\n\r\n"), std::string("\r\n\r\n\r\n"),
-        std::string("POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"),
-        std::string("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\nx"),
-        std::string("GET /%zz HTTP/1.1\r\nHost: \xff\r\n\r\n")}) {
+       std::vector<std::string>{std::string("\0\0\0\0\r\n\r\n", 8), "GET\r\n\r\n",
+                                std::string(5000, '\xff'), "GET / HTTP/9.9\r\n\r\n", "\r\n\r\n\r\n",
+                                "POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+                                "POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\nx",
+                                "GET /%zz HTTP/1.1\r\nHost: \xff\r\n\r\n"}) {
     const int socket = connection();
     send(socket, bytes);
     ::shutdown(socket, SHUT_WR);
