@@ -84,7 +84,7 @@ TEST_F(EmissionRange, OfGltfModelsIsKept) {
 
 // An image whose codes cannot exceed 1 is decoded once for both maps.
 TEST_F(EmissionRange, ImagesOfCodesAreSharedWithOtherMaps) {
-  saveImage("t.tga", {{200, 100, 50}});
+  saveImage("t.tga", {"c86432"});
   const SceneDescription scene = loadMembers(
       "'textures': {'t': {'image': 't.tga'}}, 'materials': {'m': {'diffuseMap': 't', 'emission': "
       "1, 'emissionMap': 't'}}, 'scene': [{'shape': 'quad', 'material': 'm'}]");

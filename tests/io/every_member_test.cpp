@@ -175,7 +175,7 @@ class EveryMember : public SceneFileTest {
     std::string sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
     for (int i = 0; i < 8; ++i) sky += i % 4 < 2 ? "\x80\x20\x10\x81" : "\x10\x20\x80\x80";
     save("sky.hdr", sky);
-    saveImage("data.tga", {{255, 255, 255}, {40, 40, 40}, {90, 90, 90}, {200, 200, 200}}, 2);
+    saveImage("data.tga", {"ffffff", "282828", "5a5a5a", "c8c8c8"}, 2);
   }
 
   // By packets and by the reference, of a scene that is loaded once.

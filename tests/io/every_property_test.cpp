@@ -67,10 +67,10 @@ Content contentOf(const SceneDescription& scene) {
 class EveryProperty : public GltfTest {
  protected:
   EveryProperty() {
-    saveImage("t.tga", {{200, 100, 50}, {10, 20, 30}, {255, 255, 255}, {90, 128, 255}}, 2);
-    saveImage("g.tga", {{255}, {64}});
-    saveImage("h.tga", {{0}, {64}, {128}, {192}});
-    saveImage("a.tga", {{255, 255, 255, 64}});
+    saveImage("t.tga", {"c86432", "0a141e", "ffffff", "5a80ff"}, 2);
+    saveImage("g.tga", {"ff", "40"});
+    saveImage("h.tga", {"00", "40", "80", "c0"});
+    saveImage("a.tga", {"ffffff40"});
   }
 
   struct Read {

@@ -9,7 +9,7 @@ namespace {
 // reflects nothing although a metal would.
 TEST_F(GltfMaterials, EmissionByATexture) {
   candela_ = 0;
-  useRows({{{255, 188, 0}}});
+  useRows({{"ffbc00"}});
   expectShown({
       {"{'emissiveFactor':[0.5,0.25,0],'extensions':{'KHR_materials_emissive_strength':{"
        "'emissiveStrength':8}}}",
@@ -57,8 +57,7 @@ class GltfAlphas : public GltfMaterials {
  protected:
   GltfAlphas() {
     alphas_ = {0, 1, 1, 0};
-    useRows(
-        {{{255, 255, 255, 255}, {255, 255, 255, 255}, {255, 255, 255, 102}, {255, 255, 255, 255}}});
+    useRows({{"ffffffff", "ffffffff", "ffffff66", "ffffffff"}});
   }
 
   // A black surface whose alpha is that of its color, with the texture or without it.
@@ -93,7 +92,7 @@ TEST_F(GltfAlphas, OfTextureVerticesAndFactorAreMultiplied) {
   expectGlow(material("'MASK','alphaCutoff':0.3,'emissiveFactor':[1,1,1]"), {0, 1, 0, 1});
 
   // A texture without alpha counts as opaque.
-  useRows({{{255, 255, 255}}});
+  useRows({{"ffffff"}});
   expectGlow(material(kBlend), {0.125f, 0.375f, 0.625f, 0.875f});
 
   // Opaque materials ignore the alpha of vertices.
@@ -143,7 +142,7 @@ TEST_F(GltfMaterials, RoughnessFrostsGlass) {
 }
 
 // Strength 1 beside 102 / 255 = 0.4.
-const Texels kStrength{{0, 0, 0, 255}, {0, 0, 0, 102}};
+const Texels kStrength{"000000ff", "00000066"};
 
 // Black with a lobe of alpha 1.
 std::string lobeOnly(const std::string& specular, const std::string& pbr = "") {
@@ -153,7 +152,7 @@ std::string lobeOnly(const std::string& specular, const std::string& pbr = "") {
 
 // Of colors red and a gray.
 TEST_F(GltfMaterials, SpecularTexelByTexel) {
-  useRows({kStrength, {{255, 0, 0}, {188, 188, 188}}});
+  useRows({kStrength, {"ff0000", "bcbcbc"}});
   const float lobe = lobeAt(0.5, 0.5);
   const std::string strength = "'specularFactor':0.5,'specularTexture':{'index':0}",
                     color = "'specularColorFactor':[10,5,10]",
@@ -174,7 +173,7 @@ TEST_F(GltfMaterials, SpecularTexelByTexel) {
 
 // A metal has its base color, whatever the specular texture; half a metal half of it.
 TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
-  useRows({{{0, 255, 255}, {0, 255, 0}}, {{0, 0, 0, 102}}});
+  useRows({{"00ffff", "00ff00"}, {"00000066"}});
   const Rgb color{0.8f, 0.4f, 0.2f};
   const float lobe = lobeAt(0.5, 0.5), f0 = 0.04f * 0.4f;
   expectColors(
@@ -197,7 +196,7 @@ class GltfMirrors : public GltfMaterials {
 
 // White beside a blue of 1; next to nothing of Schlick's term.
 TEST_F(GltfMirrors, FollowSpecularTextures) {
-  useRows({kStrength, {{255, 255, 255}, {0, 0, 255}}});
+  useRows({kStrength, {"ffffff", "0000ff"}});
   expectMirrored(lobeOnly("'specularColorFactor':[5,5,5],'specularTexture':{'index':0},"
                           "'specularColorTexture':{'index':1}",
                           ",'roughnessFactor':0"),
@@ -206,7 +205,7 @@ TEST_F(GltfMirrors, FollowSpecularTextures) {
 
 // The picture of a smooth metal, as that of a rough one in its lobe.
 TEST_F(GltfMirrors, OfMetalHaveTheColorsOfTexturesAndVertices) {
-  useRows({{{255, 0, 0}, {0, 255, 0}}});
+  useRows({{"ff0000", "00ff00"}});
   const std::string metal = "{'pbrMetallicRoughness':{'roughnessFactor':0",
                     textured = metal + ",'baseColorTexture':{'index':0}}";
   expectMirrored(textured + "}", {1, 0, 0}, {0, 1, 0});
@@ -222,7 +221,7 @@ TEST_F(GltfMirrors, OfMetalHaveTheColorsOfTexturesAndVertices) {
 // A label on glass: what the left half lets pass, and what the right half reflects of the lamp.
 TEST_F(GltfMaterials, TransmissionTexelByTexel) {
   candela_ = 0;
-  useRows({{{255, 0, 0}, {51, 0, 0}}, {{255, 0, 0}, {0, 255, 0}}});
+  useRows({{"ff0000", "330000"}, {"ff0000", "00ff00"}});
 
   const auto show = [&](const std::string& pbr) {
     const std::string pane =
@@ -241,7 +240,7 @@ TEST_F(GltfMaterials, TransmissionTexelByTexel) {
 }
 
 TEST_F(GltfMaterials, ClearcoatsTakeTheMeanOfTheirTextures) {
-  useRows({{{102, 51, 0}, {102, 51, 0}}, {{102, 0, 0}, {204, 102, 0}}});
+  useRows({{"663300", "663300"}, {"660000", "cc6600"}});
   const auto coat = [&](const std::string& index, const std::string& roughness = "") {
     return loadMaterial(
                "{'pbrMetallicRoughness':{'metallicFactor':0,'roughnessFactor':1},'extensions':{'"

@@ -43,7 +43,7 @@ class GltfCoordinates : public GltfMaterials {
     expectColors(picture(material(base, emissive), 2), {left, right, left, right});
   }
 
-  const Texels kColors{{255, 0, 0}, {0, 255, 0}}, kLights{{0, 0, 255}, {0, 0, 0}};
+  const Texels kColors{"ff0000", "00ff00"}, kLights{"0000ff", "000000"};
   const Rgb red_{1, 0, 0}, green_{0, 1, 0}, blue_{0, 0, 1}, black_{0, 0, 0};
 };
 
@@ -72,7 +72,7 @@ TEST_F(GltfCoordinates, OfTwoSets) {
 // the normal to (0.6, 0, 0.8), in steps of 1/127.5. Light comes from (0, 3, 3), whose squared
 // distance is twice 9.
 TEST_F(GltfCoordinates, TheNormalMapLeansAlongItsOwn) {
-  useRows({{{255, 255, 255}}, {{204, 128, 230}}});
+  useRows({{"ffffff"}, {"cc80e6"}});
   secondUvs_ = {0, 0, 0, 1, 1, 1, 1, 0};
   light_ = "0,3,3";
 
@@ -104,7 +104,7 @@ char letterOf(const Rgb& color) {
 // A map whose coordinates are of a third kind is resampled for the first, row by row and texel by
 // texel, where it repeats a whole number of times.
 TEST_F(GltfCoordinates, AThirdKindIsResampled) {
-  const Texels all{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}};
+  const Texels all{"ff0000", "00ff00", "0000ff", "ffffff"};
   saveImage("four.tga", all, 2);
   saveImage("row.tga", all);
   useImages({"0.tga", "1.tga", "four.tga", "row.tga"});
@@ -137,7 +137,7 @@ TEST_F(GltfCoordinates, AThirdKindBetweenTexelsShowsWhatTheSecondDoes) {
   candela_ = 0;
   for (const std::string sampler : {"'magFilter':9729", "'magFilter':9728"}) {
     SCOPED_TRACE(sampler);
-    useRows({kColors, kLights, {{200, 30, 0}, {20, 100, 255}}}, sampler);
+    useRows({kColors, kLights, {"c81e00", "1464ff"}}, sampler);
     const auto emitted = [&](const std::string& rest) {
       return picture(material("", transformed("'offset':[0.1,0]"), "2", rest), 32);
     };
@@ -146,7 +146,7 @@ TEST_F(GltfCoordinates, AThirdKindBetweenTexelsShowsWhatTheSecondDoes) {
   expectNoWarnings();
 
   // A large image is not resampled for it.
-  useRows({kColors, Texels(255, {255, 0, 0})});
+  useRows({kColors, Texels(255, "ff0000")});
   loadMaterial(material("", transformed("'scale':[4,1],'offset':[0.1,0]"), "1", kNormal));
   expectWarned("texture blurred: a third transform shifts it by a fraction of a texel");
 }

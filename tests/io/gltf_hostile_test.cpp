@@ -205,7 +205,7 @@ TEST_F(GltfHostile, UnknownExtensionsAreReportedOnce) {
 // Replaces each number of a file that has one element of each kind by numbers and values of other
 // types.
 TEST_F(GltfHostile, ReplacedNumbers) {
-  saveImage("t.tga", {{9, 9, 9, 9}});
+  saveImage("t.tga", {"09090909"});
   const std::string attributes =
       ",'TEXCOORD_0':" + floats("VEC2", {0, 0, 1, 0, 0, 1}) + "},'indices':" + indices({0, 1, 2});
   const std::string whole = json(

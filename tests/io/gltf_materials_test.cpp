@@ -29,7 +29,7 @@ TEST_F(GltfMaterials, FactorsOfColorMetalAndReflectance) {
 }
 
 TEST_F(GltfMaterials, TexturesAreUprightAndDecodedFromSrgb) {
-  saveImage("t.tga", {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {188, 188, 188}}, 2);
+  saveImage("t.tga", {"ff0000", "00ff00", "0000ff", "bcbcbc"}, 2);
   useImages({"t.tga"});
   const float at = lit(0.5, 0.5);
   expectColors(picture(matte("'baseColorFactor':[1,0.5,1,1],'baseColorTexture':{'index':0}"), 2),
@@ -44,7 +44,7 @@ TEST_F(GltfMaterials, TexturesAreUprightAndDecodedFromSrgb) {
 }
 
 TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
-  saveImage("t.tga", {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}}, 2);
+  saveImage("t.tga", {"ff0000", "00ff00", "0000ff", "ffffff"}, 2);
   const float at = lit(0.5, 0.5);
   const Rgb red = Rgb{1, 0, 0} * at, green = Rgb{0, 1, 0} * at, blue = Rgb{0, 0, 1} * at, white(at);
 
@@ -75,7 +75,7 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
 // Four pixels to each of two texels.
 TEST_F(GltfMaterials, NearestSamplersDoNotInterpolate) {
   const auto row = [&](const std::string& sampler) {
-    useRows({{{255, 255, 255}, {0, 0, 0}}}, sampler);
+    useRows({{"ffffff", "000000"}}, sampler);
     return picture(matte("'baseColorTexture':{'index':0}"), 8);
   };
   std::vector<Rgb> wanted;
@@ -87,7 +87,7 @@ TEST_F(GltfMaterials, NearestSamplersDoNotInterpolate) {
 
 // Ambient light is multiplied by 1 + strength (R - 1), the lamp is not.
 TEST_F(GltfMaterials, OcclusionDimsIndirectLight) {
-  useRows({{{51, 255, 255}, {255, 0, 0}}, {{255, 0, 0}}});  // 0.2 and 1, and 1
+  useRows({{"33ffff", "ff0000"}, {"ff0000"}});  // 0.2 and 1, and 1
   const auto expectAmbient = [&](const std::string& texture, const std::vector<float>& ambient) {
     SceneDescription d = loadMaterial(matte("", "'occlusionTexture':{'index':" + texture + "}"));
     d.ambient.up = d.ambient.down = Rgb(0.5f);
@@ -106,7 +106,7 @@ TEST_F(GltfMaterials, OcclusionDimsIndirectLight) {
 
 // The texture's blue is the metalness; its green, the roughness, is 1.
 TEST_F(GltfMaterials, MetalnessTexelByTexel) {
-  useRows({{{0, 255, 255}, {0, 255, 0}}});
+  useRows({{"00ffff", "00ff00"}});
   const Rgb color{0.8f, 0.4f, 0.2f};
   const float lobe = lobeAt(0.5, 0.5);
   expectColors(
@@ -124,7 +124,7 @@ TEST_F(GltfMaterials, RoughnessTexelByTexel) {
     return gray(a2 / (bell * bell) / (4 * root) * cosine2);
   };
 
-  useRows({{{0, 255, 255}, {0, 204, 255}}});  // 1 and 0.8
+  useRows({{"00ffff", "00ccff"}});  // 1 and 0.8
   expectColors(
       picture(
           "{'pbrMetallicRoughness':{'roughnessFactor':0.9,'metallicRoughnessTexture':{'index':0}}}",
@@ -167,7 +167,7 @@ TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
 }
 
 TEST_F(GltfMaterials, MapsThatAreTheSameAllOverAreNone) {
-  useRows({{{0, 51, 255, 102}, {0, 51, 0, 102}}, {{0, 51, 255}, {0, 153, 255}}});
+  useRows({{"0033ff66", "00330066"}, {"0033ff", "0099ff"}});
   const auto load = [&](const std::string& index) {
     return loadMaterial(
                "{'pbrMetallicRoughness':{'roughnessFactor':0.5,"
@@ -194,7 +194,7 @@ TEST_F(GltfMaterials, MapsThatAreTheSameAllOverAreNone) {
 }
 
 TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
-  useRows({{{255, 255, 255, 100}, {255, 255, 255, 255}}});
+  useRows({{"ffffff64", "ffffffff"}});
   const auto show = [&](const std::string& alpha, const std::string& rest) {
     return picture(matte("'baseColorFactor':[1,1,1," + alpha + "],'baseColorTexture':{'index':0}",
                          "'alphaMode':'MASK'" + rest),
@@ -223,8 +223,7 @@ TEST_F(GltfMaterials, BlendingCountsTexelByTexel) {
     return Rgb{1, 0, 0} * static_cast<float>(1 - alpha) + gray(alpha * lit(0.5, 0.5));
   };
   // 0.2 and 0.6, or 0.4 all over; times the factor's alpha
-  useRows(
-      {{{255, 255, 255, 51}, {255, 255, 255, 153}}, {{255, 255, 255, 102}, {255, 255, 255, 102}}});
+  useRows({{"ffffff33", "ffffff99"}, {"ffffff66", "ffffff66"}});
   for (const double factor : {1.0, 0.5}) {
     const auto show = [&](int texture) {
       return picture({{matte(joined("'baseColorFactor':[1,1,1,", factor,
@@ -279,7 +278,7 @@ TEST_F(GltfMaterials, SpecularFactorsOfSolidsAreSaidToBeLeftOut) {
 // ior 1.5 bends the ray towards its normal, which leads to the left.
 TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   candela_ = 0;
-  useRows({{{255, 255, 255}, {0, 0, 0}}}, "'wrapS':33071");
+  useRows({{"ffffff", "000000"}}, "'wrapS':33071");
   // Between the middles of its two texels the wall is 0.5 - x / 4.
   const std::string wall =
       "{'emissiveFactor':[1,1,1],'emissiveTexture':{'index':0},"
@@ -381,7 +380,7 @@ TEST_F(GltfMaterials, EmissionBelowAClearcoatIsSaidNotToBeDimmed) {
 
 // Codes of (0.6, 0, 0.8): tilted to the right, or upwards with red and green exchanged.
 TEST_F(GltfMaterials, NormalMaps) {
-  useRows({{{204, 128, 230}}, {{128, 204, 230}}});
+  useRows({{"cc80e6"}, {"80cce6"}});
   const auto expectLit = [&](const char* light, const std::string& texture, double cosine) {
     constexpr double kCode = 0.01;  // of a normal in 8 bits
     light_ = light;

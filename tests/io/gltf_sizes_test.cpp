@@ -13,12 +13,12 @@ constexpr char kByTexel[] = "'magFilter':9728", kTiled[] = "'wrapS':10497",
 // Metal, in the blue channel, takes the diffuse color. Base color is red beside green.
 class GltfSizes : public GltfMaterials {
  protected:
-  static Texels plastic(std::size_t count) { return Texels(count, {0, 128, 0}); }
+  static Texels plastic(std::size_t count) { return Texels(count, "008000"); }
 
   // A row of no metal, but for one texel.
   static Texels metalAt(std::size_t i, std::size_t count) {
     Texels texels = plastic(count);
-    texels[i][2] = 255;
+    texels[i] = "0080ff";
     return texels;
   }
 
@@ -47,7 +47,7 @@ class GltfSizes : public GltfMaterials {
     expectColors(colors, wanted);
   }
 
-  const Texels base_{{255, 0, 0}, {0, 255, 0}};
+  const Texels base_{"ff0000", "00ff00"};
 };
 
 // Each of the two texels becomes three, whose centers lie 1/3 of a texel apart.
@@ -64,8 +64,7 @@ TEST_F(GltfSizes, TheSmallerOneIsInterpolatedWithItsWrapMode) {
   }
   expectNoWarnings();
 
-  expectRow(made(Texels(6, {255, 0, 0}), metalAt(1, 2), kClamped).second, {1, 1, 1, 1, 1, 1},
-            clamped);
+  expectRow(made(Texels(6, "ff0000"), metalAt(1, 2), kClamped).second, {1, 1, 1, 1, 1, 1}, clamped);
 }
 
 // Edges of both lie between texels of 6 columns.
@@ -77,7 +76,7 @@ TEST_F(GltfSizes, TexelsThatAreNotInterpolatedKeepTheirSizes) {
 }
 
 TEST_F(GltfSizes, TexelsThatCannotKeepTheirSizesAreCounted) {
-  EXPECT_EQ(made(Texels(254, {255, 0, 0}), metalAt(7, 255), kByTexel).first.width, 255);
+  EXPECT_EQ(made(Texels(254, "ff0000"), metalAt(7, 255), kByTexel).first.width, 255);
   expectWarned(kRoughly);
 }
 
@@ -96,7 +95,7 @@ TEST_F(GltfSizes, SamplersThatDifferAreCounted) {
 // as a file without the image has it.
 TEST_F(GltfSizes, AnEvenMetalnessChangesNoTexel) {
   saveImage("base.tga", base_);
-  saveImage("even.tga", Texels(15, {7, 128, 51}), 3);
+  saveImage("even.tga", Texels(15, "078033"), 3);
   saveImage("uneven.tga", metalAt(4, 15), 3);
   const auto pictureOfFile = [&](const std::string& image, const std::string& material) {
     useImages({"base.tga", image}, {kTiled, kClamped});

@@ -21,10 +21,10 @@ class MaskedLevels : public GltfMaterials {
     Texels leaf, color, mask;
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        const int c = x < kLeafWidth && y < kLeafHeight ? 255 : 0;
-        leaf.push_back({0, c, 0, c});
-        color.push_back({0, c, 0});
-        mask.push_back({c});
+        const bool isLeaf = x < kLeafWidth && y < kLeafHeight;
+        leaf.push_back(isLeaf ? "00ff00ff" : "00000000");
+        color.push_back(isLeaf ? "00ff00" : "000000");
+        mask.push_back(isLeaf ? "ff" : "00");
       }
     }
 

@@ -137,7 +137,7 @@ TEST_F(Mtl, DamagedLinesAreLeftOut) {
 
 // The texture has one texel. Its coordinates become u' = 0.25 + 2 u and v' = -0.5 + 3 v.
 TEST_F(Mtl, OffsetAndScaleOfMaps) {
-  saveImage("c.tga", {{255, 0, 0}});
+  saveImage("c.tga", {"ff0000"});
   save("m.mtl",
        "newmtl moved\nmap_Kd -o 0.25 -0.5 0 -s 2 3 1 c.tga\nnewmtl plain\nmap_Kd c.tga\n"
        "newmtl two\nmap_Kd c.tga\nKe 1 1 1\nmap_Ke -s 4 4 c.tga\n");
@@ -160,7 +160,7 @@ TEST_F(Mtl, OffsetAndScaleOfMaps) {
 
 // Maps of roughness are resampled for the coordinates of the color, if their offset is a number.
 TEST_F(Mtl, OffsetsThatAreNotFiniteAreNotResampled) {
-  saveImage("c.tga", {{255, 0, 0}, {0, 255, 0}});
+  saveImage("c.tga", {"ff0000", "00ff00"});
   for (const std::string offset : {"inf", "-inf", "nan", "0 nan"}) {
     EXPECT_FALSE(loadWith("map_Kd c.tga\nmap_Pr -o " + offset + " c.tga\n").materials.empty())
         << offset;
@@ -170,9 +170,9 @@ TEST_F(Mtl, OffsetsThatAreNotFiniteAreNotResampled) {
 // The material is metal on the left and plastic on the right, rough above and smooth below. The
 // emission map is a factor of Ke, and stands alone where Ke is 0.
 TEST_F(Mtl, MapsOfMetalnessRoughnessAndEmission) {
-  saveImage("metal.tga", {{255}, {0}});
-  saveImage("rough.tga", {{255}, {128}}, 2);
-  saveImage("glow.tga", {{255, 0, 0}});
+  saveImage("metal.tga", {"ff", "00"});
+  saveImage("rough.tga", {"ff", "80"}, 2);
+  saveImage("glow.tga", {"ff0000"});
 
   const SceneDescription scene = loadWith(
       "Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nmap_Pm metal.tga\nmap_Pr rough.tga\nKe 0 0 0\n"
@@ -197,8 +197,8 @@ TEST_F(Mtl, MapsOfMetalnessRoughnessAndEmission) {
 
 // Other programs write names without regard to capitals, and with folders of another machine.
 TEST_F(Mtl, NamesOfOtherSystems) {
-  saveImage("Textures/Wood.tga", {{255, 0, 0}});
-  saveImage("Beside.TGA", {{255, 0, 0}});
+  saveImage("Textures/Wood.tga", {"ff0000"});
+  saveImage("Beside.TGA", {"ff0000"});
 
   for (const std::string name :
        {"textures\\wood.TGA", "C:\\Users\\me\\beside.tga", "../../beside.tga",
@@ -210,9 +210,9 @@ TEST_F(Mtl, NamesOfOtherSystems) {
 }
 
 TEST_F(Mtl, MapsByTheirKeys) {
-  saveImage("c.tga", {{255, 0, 0}});
-  saveImage("n.tga", {{128, 128, 255}});
-  saveImage("d.tga", {{64}});
+  saveImage("c.tga", {"ff0000"});
+  saveImage("n.tga", {"8080ff"});
+  saveImage("d.tga", {"40"});
 
   const SceneDescription scene =
       loadWith("map_Kd c.tga\nKs 1 1 1\nmap_Ks c.tga\nnorm n.tga\nmap_d -clamp on d.tga\n");
@@ -239,7 +239,7 @@ TEST_F(Mtl, MapsByTheirKeys) {
 }
 
 TEST_F(Mtl, NamesWithBlanksBackslashesAndOptions) {
-  saveImage("a folder/c 1.tga", {{255, 0, 0}});
+  saveImage("a folder/c 1.tga", {"ff0000"});
   for (const std::string line :
        {"map_Kd a folder\\c 1.tga\r", "map_Kd -clamp off a folder/c 1.tga \t",
         "map_Kd -imfchan r a folder/c 1.tga", "map_Kd -bm 2 a folder/c 1.tga",
@@ -289,9 +289,9 @@ TEST_F(Mtl, TransparencyOfMeshLabIsOpacity) {
 }
 
 TEST_F(Mtl, AlphaOfTheColorCuts) {
-  saveImage("cut.tga", {{255, 0, 0, 255}, {255, 0, 0, 10}});
-  saveImage("solid.tga", {{255, 0, 0, 255}, {255, 0, 0, 255}});
-  saveImage("mask.tga", {{7}, {9}});
+  saveImage("cut.tga", {"ff0000ff", "ff00000a"});
+  saveImage("solid.tga", {"ff0000ff", "ff0000ff"});
+  saveImage("mask.tga", {"07", "09"});
   const auto alphaOf = [&](const std::string& statements) {
     const SceneDescription scene = loadWith(statements);
     return dataOf(scene, scene.materials[0].alphaMap).at(1);
@@ -305,7 +305,7 @@ TEST_F(Mtl, AlphaOfTheColorCuts) {
 
 // "The map_d value is multiplied by the d value". Masks stay masks though their edges are soft.
 TEST_F(Mtl, GrayMasksAreCoverage) {
-  saveImage("gray.tga", {{100}, {200}});
+  saveImage("gray.tga", {"64", "c8"});
   const SceneDescription gray = loadWith("d 0.5\nmap_d gray.tga\n");
   const Material& m = gray.materials[0];
   EXPECT_EQ(m.coverage, 0.5f);
@@ -314,12 +314,12 @@ TEST_F(Mtl, GrayMasksAreCoverage) {
   EXPECT_EQ(m.alphaCutoff, kClearCoverage);
   EXPECT_EQ(dataOf(gray, m.coverageMap)[0], 100);
 
-  saveImage("color.tga", {{255, 0, 0, 100}});
+  saveImage("color.tga", {"ff000064"});
   const SceneDescription color = loadWith("map_Kd color.tga\n");
   ASSERT_NE(color.materials[0].coverageMap, kNoTexture);
   EXPECT_EQ(dataOf(color, color.materials[0].coverageMap)[0], 100);
 
-  saveImage("soft.tga", {{0}, {100}, {200}, {255}});
+  saveImage("soft.tga", {"00", "64", "c8", "ff"});
   const Material soft = materialOf("map_d soft.tga\n");
   EXPECT_NE(soft.alphaMap, kNoTexture);
   EXPECT_EQ(soft.coverageMap, kNoTexture);
@@ -328,7 +328,7 @@ TEST_F(Mtl, GrayMasksAreCoverage) {
 
 // A square that glows with 1 before black is seen as its coverage.
 TEST_F(GltfMaterials, GrayMasksOfMtlLetTheRestThrough) {
-  saveImage("gray.tga", {{100}});
+  saveImage("gray.tga", {"64"});
   constexpr int kSide = 9, kMiddle = kSide * kSide / 2;
   for (const float dissolve : {1.0f, 0.5f}) {
     save("m.mtl", joined("newmtl m\nKd 0 0 0\nKe 1 1 1\nmap_d gray.tga\nd ", dissolve, "\n"));
@@ -341,7 +341,7 @@ TEST_F(GltfMaterials, GrayMasksOfMtlLetTheRestThrough) {
 
 TEST_F(Mtl, BumpMapsOfHeightsBecomeNormals) {
   // The heights rise by 64 codes a texel to the right. The texture is 4 texels wide.
-  saveImage("h.tga", {{0}, {64}, {128}, {192}});
+  saveImage("h.tga", {"00", "40", "80", "c0"});
   const SceneDescription scene = loadWith("map_Bump -bm 8 h.tga\n");
   const std::uint32_t texel = textureOf(scene, scene.materials[0].normalMap).texels[1];
 
@@ -355,8 +355,8 @@ TEST_F(Mtl, BumpMapsOfHeightsBecomeNormals) {
 }
 
 TEST_F(Mtl, BumpMapsOfNormalsAndGrayPicturesAreToldApart) {
-  saveImage("n.tga", {{100, 150, 250}});
-  saveImage("g.tga", {{100, 104, 98}});
+  saveImage("n.tga", {"6496fa"});
+  saveImage("g.tga", {"646862"});
   const SceneDescription normals = loadWith("bump n.tga\n"), flat = loadWith("map_bump g.tga\n");
   EXPECT_EQ(textureOf(normals, normals.materials[0].normalMap).texels[0] & 0xffffffu, 0xfa9664u);
   EXPECT_EQ(textureOf(flat, flat.materials[0].normalMap).texels[0] >> 16 & 0xffu, 255u);

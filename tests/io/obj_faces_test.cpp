@@ -79,7 +79,7 @@ TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
 
 // Nothing is said of faces whose material has no texture.
 TEST_F(ObjFaces, FacesThatLackTheCoordinatesOfTheirTextureAreCounted) {
-  saveImage("a.tga", {{255, 0, 0}});
+  saveImage("a.tga", {"ff0000"});
   save("m.mtl", "newmtl mapped\nmap_Kd a.tga\nnewmtl plain\nKd 1 0 0\n");
   loadObj(std::string("mtllib m.mtl\nvt 0 0\n") + kSquare +
           "f 1 2 3\nusemtl plain\nf 1 2 3\nusemtl mapped\nf 1/1 2/1 3/1\nf 1/1 2/1 4\nf 1 3 4\n");

@@ -203,7 +203,7 @@ TEST_F(Ply, ShortNamesOfColors) {
 }
 
 TEST_F(Ply, PicturesByCoordinatesOfVertices) {
-  saveImage("t.tga", {{255, 0, 0}});
+  saveImage("t.tga", {"ff0000"});
   const SceneDescription scene = loadPly(
       "ply\nformat ascii 1.0\ncomment TextureFile t.tga\nelement vertex 3\nproperty float x\n"
       "property float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\n"
@@ -218,8 +218,8 @@ TEST_F(Ply, PicturesByCoordinatesOfVertices) {
 
 // Images are numbered in the order of the comments. Coordinates belong to the corners of faces.
 TEST_F(Ply, PicturesByCoordinatesOfFaces) {
-  saveImage("red.tga", {{255, 0, 0}});
-  saveImage("blue.tga", {{0, 0, 255}});
+  saveImage("red.tga", {"ff0000"});
+  saveImage("blue.tga", {"0000ff"});
 
   const SceneDescription scene =
       loadPly(ascii(std::string("comment TextureFile red.tga\ncomment TextureFile blue.tga\n") +

@@ -59,7 +59,7 @@ TEST(Polygon, ConcaveQuadIsCutFromItsReflexCorner) {
   std::vector<Vec3d> dart = polygon({{0, 0}, {2, -2}, {0, 4}, {-2, -2}});
   for (int turned = 0; turned < 4; ++turned) {
     expectCovered(dart, {0, 0, 8});
-    std::ranges::rotate(dart, dart.begin() + 1);
+    std::rotate(dart.begin(), dart.begin() + 1, dart.end());
   }
 }
 

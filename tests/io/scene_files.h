@@ -29,12 +29,13 @@ namespace whit {
 
 inline const std::string kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-// The texels of an image, row by row from the top: 1 value is gray, 3 are RGB and 4 RGBA.
-using Texels = std::vector<std::vector<int>>;
+// The texels of an image, row by row from the top, by hexadecimal codes: gray as "80", RGB as
+// "ff8000" and RGBA as "ff800080".
+using Texels = std::vector<std::string>;
 
 // Returns an uncompressed TGA file.
 inline std::string tga(const Texels& texels, std::size_t height = 1) {
-  const std::size_t channels = texels[0].size(), width = texels.size() / height;
+  const std::size_t channels = texels[0].size() / 2, width = texels.size() / height;
   std::string file(18, '\0');
   file[2] = channels == 1 ? 3 : 2;
   file[12] = static_cast<char>(width & 255);
@@ -43,9 +44,13 @@ inline std::string tga(const Texels& texels, std::size_t height = 1) {
   file[16] = static_cast<char>(8 * channels);
   file[17] = static_cast<char>(0x20 | (channels == 4 ? 8 : 0));
 
-  for (std::vector<int> texel : texels) {
-    if (channels >= 3) std::swap(texel[0], texel[2]);  // the format has blue first
-    for (const int c : texel) file += static_cast<char>(c);
+  for (const std::string& texel : texels) {
+    std::string codes;
+    for (std::size_t i = 0; i < texel.size(); i += 2) {
+      codes += static_cast<char>(std::stoi(texel.substr(i, 2), nullptr, 16));
+    }
+    if (channels >= 3) std::swap(codes[0], codes[2]);  // the format has blue first
+    file += codes;
   }
 
   return file;

@@ -202,8 +202,8 @@ TEST_F(SceneItems, ShapesWithPlacementsBecomeInstances) {
 }
 
 TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
-  saveImage("a.tga", {{10, 20, 30}});
-  saveImage("b.tga", {{40, 50, 60}});
+  saveImage("a.tga", {"0a141e"});
+  saveImage("b.tga", {"28323c"});
   save("m.mtl",
        "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0.1 0.1 0.1\nnewmtl y\n"
        "Kd 0.25 0.25 0.25\n");

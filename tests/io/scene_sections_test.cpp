@@ -272,7 +272,7 @@ TEST_F(SceneSections, SkyGradientAndImage) {
   EXPECT_EQ(gradient.sky.horizon, Rgb(2, 2, 2));
   EXPECT_EQ(gradient.ambient.down, Rgb(0, 0.5f, 0));
 
-  saveImage("sky.tga", {{255, 0, 0}, {0, 0, 255}});
+  saveImage("sky.tga", {"ff0000", "0000ff"});
   const SceneDescription image = loadMembers("'sky': {'image': 'sky.tga', 'rotation': 90}");
   EXPECT_EQ(image.sky.kind, Sky::Kind::image);
   EXPECT_EQ(image.sky.rotation, 90);
@@ -299,8 +299,8 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
       "{'specular': 0.5, 'glossyReflection': false}}");
   const char* const expected[] = {
       "{'diffuse': 0.25, 'castsShadow': true, 'glossyReflection': true}",
-      "{'transmission': 0.9, 'ior': 1.33, 'absorption': [0,1,2], 'castsShadow': false, "
-      "'glossyReflection': false}",
+      ("{'transmission': 0.9, 'ior': 1.33, 'absorption': [0,1,2], 'castsShadow': false, "
+       "'glossyReflection': false}"),
       "{'castsShadow': true, 'glossyReflection': false}",
       // A material that reflects by a mirror does not sample its lobe unless it says so.
       "{'mirrorGrazing': [0.5,0.25,0.125], 'glossyReflection': false}",
@@ -341,7 +341,7 @@ TEST_F(SceneSections, MaterialsOfMoreThanAllLightAreNamed) {
 }
 
 TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
-  saveImage("a.tga", {{128, 128, 255}});
+  saveImage("a.tga", {"8080ff"});
   const SceneDescription scene = loadMembers(
       "'textures': {'t': {'image': 'a.tga', 'wrap': ['clamp', 'mirror']},'same': {'image': "
       "'a.tga', 'wrap': ['clamp', 'mirror']}},'materials': {'m': {'diffuseMap': 't', 'normalMap': "
