@@ -212,41 +212,50 @@ TEST_F(EveryProperty, OfPly) {
 
   // Properties of one element that belong together.
   struct Properties {
-    const char *element, *names, *type, *values;
+    const char *names, *type, *values;
   };
-  const Properties properties[] = {
-      {"vertex", "nx ny nz", "float", "0 0.6 0.8"},
-      {"vertex", "u v", "float", "0.5 0.25"},
-      {"vertex", "s t", "float", "0.5 0.25"},
-      {"vertex", "texture_u texture_v", "float", "0.5 0.25"},
-      {"vertex", "red green blue", "uchar", "255 0 9"},
-      {"vertex", "diffuse_red diffuse_green diffuse_blue", "uchar", "255 0 9"},
-      {"vertex", "r g b", "float", "1 0 0.5"},
-      {"vertex", "red", "uchar", "255"},
-      {"vertex", "alpha", "uchar", "7"},
-      {"vertex", "confidence", "float", "0.5"},
-      {"vertex", "intensity", "float", "0.5"},
-      {"vertex", "quality", "float", "0.5"},
-      {"vertex", "radius", "float", "0.5"},
-      {"vertex", "flags", "int", "1"},
-      {"vertex", "material_index", "int", "0"},
-      {"face", "red green blue", "uchar", "255 0 9"},
-      {"face", "red", "uchar", "255"},
-      {"face", "alpha", "uchar", "7"},
-      {"face", "flags", "int", "1"},
-      {"face", "quality", "float", "1"},
-      {"face", "nx ny nz", "float", "0 0 1"},
+  const std::pair<Part Ply::*, std::vector<Properties>> elements[] = {
+      {&Ply::vertex,
+       {
+           {"nx ny nz", "float", "0 0.6 0.8"},
+           {"u v", "float", "0.5 0.25"},
+           {"s t", "float", "0.5 0.25"},
+           {"texture_u texture_v", "float", "0.5 0.25"},
+           {"red green blue", "uchar", "255 0 9"},
+           {"diffuse_red diffuse_green diffuse_blue", "uchar", "255 0 9"},
+           {"r g b", "float", "1 0 0.5"},
+           {"red", "uchar", "255"},
+           {"alpha", "uchar", "7"},
+           {"confidence", "float", "0.5"},
+           {"intensity", "float", "0.5"},
+           {"quality", "float", "0.5"},
+           {"radius", "float", "0.5"},
+           {"flags", "int", "1"},
+           {"material_index", "int", "0"},
+       }},
+      {&Ply::face,
+       {
+           {"red green blue", "uchar", "255 0 9"},
+           {"red", "uchar", "255"},
+           {"alpha", "uchar", "7"},
+           {"flags", "int", "1"},
+           {"quality", "float", "1"},
+           {"nx ny nz", "float", "0 0 1"},
+       }},
   };
 
   const Read plain = readPly({});
-  for (const Properties& p : properties) {
-    Part part{"", p.values};
-    std::istringstream names(p.names);
-    for (std::string name; names >> name;) {
-      part.declared += joined("property ", p.type, " ", name, "\n");
+  for (const auto& [element, properties] : elements) {
+    for (const auto& [names, type, values] : properties) {
+      Ply ply;
+      Part& part = ply.*element;
+      part.values = values;
+      std::istringstream all(names);
+      for (std::string name; all >> name;) {
+        part.declared += joined("property ", type, " ", name, "\n");
+      }
+      expectNoticed(readPly(ply), plain, names);
     }
-    const bool isOfFaces = p.element == std::string("face");
-    expectNoticed(readPly(isOfFaces ? Ply{.face = part} : Ply{.vertex = part}), plain, p.names);
   }
 
   // Coordinates of the faces' corners select texels of the pictures, which comments name.

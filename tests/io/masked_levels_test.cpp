@@ -82,17 +82,11 @@ class MaskedLevels : public GltfMaterials {
   }
 };
 
-TEST_F(MaskedLevels, OfGltf) {
+TEST_F(MaskedLevels, OfEveryFormat) {
   expectGreenLevels(gltf("MASK"), false);
   expectGreenLevels(gltf("BLEND"), true);
-}
-
-TEST_F(MaskedLevels, OfObj) {
   expectGreenLevels(obj("map_Kd color.tga\nmap_d mask.tga\n"), false);
   expectGreenLevels(obj("map_Kd leaf.tga\n"), false);
-}
-
-TEST_F(MaskedLevels, OfSceneFiles) {
   expectGreenLevels(sceneFile("alphaMap"), false);
   expectGreenLevels(sceneFile("coverageMap"), true);
 }
