@@ -1,41 +1,44 @@
 // Models that the library assimp reads, in a process of its own. Each of
 // tests/fuzz/corpus/*/tetra.* holds the tetrahedron that expectTetrahedron() describes.
-#include "has_text.h"
 #include "io/assimp/assimp_model.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/display.h"
 #include "gltf_files.h"
-#include "pi.h"
+#include "noun_members.h"
 #include "sanitized.h"
+#include "solids.h"
 
 namespace whit {
 namespace {
-
-constexpr char kWithout[] = "built without libassimp";
 
 class Assimp : public GltfTest {
  protected:
   void SetUp() override {
     if (convertByAssimp("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1 << 30)
             .glb.empty()) {
-      GTEST_SKIP() << kWithout;
+      GTEST_SKIP() << "built without libassimp";
     }
   }
 
   SceneDescription loadBytes(const std::string& extension, const std::string& bytes) {
     return load(save("m." + extension, bytes));
   }
+  static std::string tetra(const std::string& extension) {
+    return corpusFile(extension + "/tetra." + extension);
+  }
+  SceneDescription loadTetra(const std::string& extension) {
+    return loadBytes(extension, tetra(extension));
+  }
 };
 
 struct PlacedTriangle {
   std::array<Vec3d, 3> corners, normals;
   std::array<Rgb, 3> colors;
+
+  bool operator==(const PlacedTriangle&) const = default;
 };
 
 std::vector<PlacedTriangle> trianglesOf(const SceneDescription& scene) {
@@ -85,10 +88,10 @@ void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) 
 }
 
 TEST_F(Assimp, StlStandsWithZUp) {
-  expectTetrahedron(loadBytes("stl", corpusFile("stl/tetra.stl")), 0, true);
-  EXPECT_EQ(kinds(), "");
-  options_.settings = {"/up=\"y\""};
-  expectTetrahedron(loadBytes("stl", corpusFile("stl/tetra.stl")), 0, false);
+  expectTetrahedron(loadTetra("stl"), 0, true);
+  expectNoWarnings();
+  options_.settings = {"/up='y'"};
+  expectTetrahedron(loadTetra("stl"), 0, false);
 }
 
 TEST_F(Assimp, TextOfStlIsReadAsWell) {
@@ -97,17 +100,17 @@ TEST_F(Assimp, TextOfStlIsReadAsWell) {
   EXPECT_EQ(triangles.size(), 12u);
   for (const PlacedTriangle& t : triangles) expectNear(t.normals[0], faceNormal(t), 1e-6);
   EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(0.6f)) << "as other models without materials";
-  EXPECT_EQ(kinds(), "");
+  expectNoWarnings();
 }
 
 // Bits 0 to 4 are blue, then green and red: codes of 5 bits on a screen.
 TEST_F(Assimp, ColorBitsOfStl) {
-  const SceneDescription scene = loadBytes("stl", corpusFile("stl/tetra.stl"));
+  const SceneDescription scene = loadTetra("stl");
   const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
   ASSERT_EQ(triangles.size(), 4u);
 
-  const auto gray = static_cast<float>(srgbToLinear(16 / 31.0));
-  const std::array colors{Rgb{1, 0, 0}, Rgb{0, 1, 0}, Rgb{0, 0, 1}, Rgb{gray, gray, gray}};
+  const Rgb gray(static_cast<float>(srgbToLinear(16 / 31.0)));
+  const Rgb colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, gray};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const Rgb& color : triangles[i].colors) {
       expectNear(Vec3d(color), Vec3d(colors[i]), 1e-6);
@@ -118,34 +121,11 @@ TEST_F(Assimp, ColorBitsOfStl) {
   EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(1.0f));
 }
 
-// Describes a cylinder about z with 24 sides, between z = 0 and 1. Neighboring sides differ by 15
-// degrees, and the top and the bottom differ from the sides by 90.
-std::string cylinderOff() {
-  constexpr int kSides = 24;
-  std::string points, faces, top = std::to_string(kSides), bottom = top;
-
-  for (int i = 0; i < kSides; ++i) {
-    const double angle = 2 * kPi * i / kSides;
-    const std::string xy =
-        std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " ";
-    points += xy + "0\n" + xy + "1\n";
-
-    const int next = (i + 1) % kSides;
-    faces += "4 " + std::to_string(2 * i) + " " + std::to_string(2 * next) + " " +
-             std::to_string(2 * next + 1) + " " + std::to_string(2 * i + 1) + "\n";
-
-    // The bottom lists its corners backwards, so that it looks down.
-    top += " " + std::to_string(2 * i + 1);
-    bottom += " " + std::to_string(2 * (kSides - 1 - i));
-  }
-
-  return "OFF\n" + std::to_string(2 * kSides) + " " + std::to_string(kSides + 2) + " 0\n" + points +
-         faces + top + "\n" + bottom + "\n";
-}
-
+// Neighboring sides of a prism of 24 corners differ by 15 degrees, and its ends differ from them by
+// 90.
 TEST_F(Assimp, NormalsAreSmoothedBelowAnAngle) {
-  options_.settings = {"/up=\"y\""};
-  const SceneDescription scene = loadBytes("off", cylinderOff());
+  options_.settings = {"/up='y'"};
+  const SceneDescription scene = loadBytes("off", "OFF\n48 26 0\n" + linesOf(prism(24, 2)));
 
   int sides = 0;
   for (const PlacedTriangle& t : trianglesOf(scene)) {
@@ -162,48 +142,44 @@ TEST_F(Assimp, NormalsAreSmoothedBelowAnAngle) {
 }
 
 TEST_F(Assimp, OffColladaFbxAnd3ds) {
-  options_.settings = {"/up=\"z\""};
-  expectTetrahedron(loadBytes("off", corpusFile("off/tetra.off")), 0, true);
+  options_.settings = {"/up='z'"};
+  expectTetrahedron(loadTetra("off"), 0, true);
 
   options_.settings = {};
   // The Collada and FBX files themselves say that z is up.
   save("t.png", corpusFile("png/rgb.png"));
-  expectTetrahedron(loadBytes("dae", corpusFile("dae/tetra.dae")), 5, true);
-  expectTetrahedron(loadBytes("fbx", corpusFile("fbx/tetra.fbx")), 5, true);
+  expectTetrahedron(loadTetra("dae"), 5, true);
+  expectTetrahedron(loadTetra("fbx"), 5, true);
 
   // Programs also write the other axes of the file's coordinate system.
-  std::string allAxes = corpusFile("fbx/tetra.fbx");
+  std::string allAxes = tetra("fbx");
   allAxes.insert(allAxes.find("\t\tP: \"UpAxisSign\""),
-                 "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\", 1\n"
-                 "\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\", -1\n"
-                 "\t\tP: \"CoordAxis\", \"int\", \"Integer\", \"\", 0\n"
-                 "\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\", 1\n");
+                 "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\", 1\n\t\tP: \"FrontAxisSign\", "
+                 "\"int\", \"Integer\", \"\", -1\n\t\tP: \"CoordAxis\", \"int\", \"Integer\", "
+                 "\"\", 0\n\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\", 1\n");
   expectTetrahedron(loadBytes("fbx", allAxes), 5, true);
-  EXPECT_EQ(kinds(), "");
+  expectNoWarnings();
 
-  std::string text = corpusFile("3ds/tetra.3ds");
+  std::string text = tetra("3ds");
   std::memcpy(text.data() + text.find("T.PNG"), "t.png", 5);
   expectTetrahedron(loadBytes("3ds", text), 0, true);
-  EXPECT_EQ(kinds(), "");
+  expectNoWarnings();
 
   // A Collada file says which axis is up, so that /up is refused for it.
-  options_.settings = {"/up=\"x\""};
-  EXPECT_TRUE(hasText(errorOf([&] { loadBytes("dae", corpusFile("dae/tetra.dae")); }), "/up"));
+  options_.settings = {"/up='x'"};
+  expectErrorsOf("m.dae", {{tetra("dae"), "*/up*"}});
 }
 
 // The picture beside the model is its base color, which replaces the color of the file.
 TEST_F(Assimp, TexturesLieBesideTheModel) {
   save("t.png", corpusFile("png/rgb.png"));
   for (const std::string extension : {"dae", "fbx"}) {
-    const SceneDescription scene =
-        loadBytes(extension, corpusFile(extension + "/tetra." + extension));
+    const SceneDescription scene = loadTetra(extension);
 
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.name, "red");
     EXPECT_NE(material.diffuseMap, kNoTexture) << extension;
-    EXPECT_EQ(material.diffuse, Rgb(1.0f));
-    EXPECT_TRUE(material.doubleSided);
-    EXPECT_NEAR(material.mirror.x, 0, 1e-6);
+    expectMembers(material, "{'diffuse': 1, 'doubleSided': true, 'mirror': 0}");
 
     const Mesh& mesh = scene.objects[scene.instances[0].object].meshes[0];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -216,8 +192,7 @@ TEST_F(Assimp, TexturesLieBesideTheModel) {
 
 TEST_F(Assimp, NoFileOutsideOfTheFolderIsRead) {
   save("../secret.png", corpusFile("png/rgb.png"));
-  const std::string text =
-      replaced(corpusFile("dae/tetra.dae"), "<init_from>t.png", "<init_from>../secret.png");
+  const std::string text = replaced(tetra("dae"), "<init_from>t.png", "<init_from>../secret.png");
   const SceneDescription scene = loadBytes("dae", text);
 
   // A texture of one texel stands in for it.
@@ -230,36 +205,34 @@ TEST_F(Assimp, NoFileOutsideOfTheFolderIsRead) {
 // Gives the mesh a controller with a joint that is turned. If the joint were applied, the mesh
 // would be elsewhere.
 TEST_F(Assimp, ARiggedModelIsShownAtRest) {
-  std::string text = corpusFile("dae/tetra.dae");
-  text = replaced(text, "<library_visual_scenes>",
-                  "<library_controllers><controller id='c'><skin source='#g'>"
-                  "<source id='j'><Name_array id='ja' count='1'>bone</Name_array><technique_common>"
-                  "<accessor source='#ja' count='1'><param name='JOINT' type='Name'/></accessor>"
-                  "</technique_common></source>"
-                  "<source id='b'><float_array id='ba' count='16'>1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1"
-                  "</float_array><technique_common><accessor source='#ba' count='1' stride='16'>"
-                  "<param type='float4x4'/></accessor></technique_common></source>"
-                  "<source id='w'><float_array id='wa' count='1'>1</float_array><technique_common>"
-                  "<accessor source='#wa' count='1'><param name='WEIGHT' type='float'/></accessor>"
-                  "</technique_common></source>"
-                  "<joints><input semantic='JOINT' source='#j'/>"
-                  "<input semantic='INV_BIND_MATRIX' source='#b'/></joints>"
-                  "<vertex_weights count='4'><input semantic='JOINT' source='#j' offset='0'/>"
-                  "<input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1 1</vcount>"
-                  "<v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller>"
-                  "</library_controllers><library_visual_scenes>");
+  std::string text = tetra("dae");
+  text = replaced(
+      text, "<library_visual_scenes>",
+      "<library_controllers><controller id='c'><skin source='#g'><source id='j'><Name_array "
+      "id='ja' count='1'>bone</Name_array><technique_common><accessor source='#ja' "
+      "count='1'><param name='JOINT' type='Name'/></accessor></technique_common></source><source "
+      "id='b'><float_array id='ba' count='16'>1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 "
+      "1</float_array><technique_common><accessor source='#ba' count='1' stride='16'><param "
+      "type='float4x4'/></accessor></technique_common></source><source id='w'><float_array id='wa' "
+      "count='1'>1</float_array><technique_common><accessor source='#wa' count='1'><param "
+      "name='WEIGHT' type='float'/></accessor></technique_common></source><joints><input "
+      "semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' "
+      "source='#b'/></joints><vertex_weights count='4'><input semantic='JOINT' source='#j' "
+      "offset='0'/><input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1 1</vcount><v>0 0 "
+      "0 0 0 0 0 "
+      "0</v></vertex_weights></skin></controller></library_controllers><library_visual_scenes>");
 
   // The node shows the mesh by the controller, and another node is its joint.
   text = replaced(text, "<instance_geometry url=\"#g\">",
                   "<instance_controller url=\"#c\"><skeleton>#bone</skeleton>");
   text = replaced(text, "</instance_geometry>", "</instance_controller>");
   text = replaced(text, "<node id=\"n\"",
-                  "<node id='bone' sid='bone' name='bone' type='JOINT'><rotate>0 0 1 90</rotate>"
-                  "</node><node id=\"n\"");
+                  "<node id='bone' sid='bone' name='bone' type='JOINT'><rotate>0 0 1 "
+                  "90</rotate></node><node id=\"n\"");
 
   save("t.png", corpusFile("png/rgb.png"));
   expectTetrahedron(loadBytes("dae", text), 5, true);
-  EXPECT_TRUE(hasText(kinds(), "shown at rest"));
+  expectLike(kinds(), "*shown at rest*");
 }
 
 // A binary STL file of the unit square in the plane z = 0, as two triangles, and a third that has
@@ -288,43 +261,27 @@ TEST_F(Assimp, FacesWithCornersThatAreNotFiniteAreLeftOut) {
   std::uint64_t count = 0;
   for (const std::vector<float>& corner :
        {std::vector{nan, 0.0f, 0.0f}, std::vector{0.0f, 1.0f, infinite}}) {
-    const auto found = trianglesOf(loadBytes("stl", squareStl(corner)));
-    EXPECT_EQ(warned(kBadFace), ++count);
-
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(found[i].corners[k], expected[i].corners[k]);
-        EXPECT_EQ(found[i].normals[k], expected[i].normals[k]);
-      }
-    }
+    EXPECT_EQ(trianglesOf(loadBytes("stl", squareStl(corner))), expected);
+    expectWarned(kBadFace, ++count);
   }
 
-  const std::string strict = errorIfStrict(save("m.stl", squareStl({nan, 0, 0})));
-  EXPECT_TRUE(hasText(strict, kBadFace)) << strict;
+  expectLike(errorIfStrict(save("m.stl", squareStl({nan, 0, 0}))), joined("*", kBadFace, "*"));
 }
 
-TEST_F(Assimp, FacesOfOffWithBadCornersAreCounted) {
+TEST_F(Assimp, WhatIsLeftOutOfOffFilesIsCounted) {
   const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-
-  // The first quadrilateral has a corner that is beyond the range of floats.
-  const SceneDescription far =
-      loadBytes("off", "OFF\n6 2 0\n" + vertices + "2 0 1e39\n2 1 0\n4 1 4 5 2\n4 0 1 2 3\n");
-  EXPECT_EQ(trianglesOf(far).size(), 2u);
-  EXPECT_EQ(kinds(), kBadFace + std::string("\n"));
-  EXPECT_EQ(warned(kBadFace), 1u);
-
-  loadBytes("off", "OFF\n4 1 0\n" + vertices + "4 0 1 2 7\n");
-  EXPECT_EQ(warned("vertex index out of range replaced by the last vertex"), 1u);
-}
-
-// Colors of vertices are read, and a comment is no color.
-TEST_F(Assimp, ColorsOfFacesOfOffAreSaidToBeLeftOut) {
-  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-  loadBytes("off", "OFF\n4 2 0\n" + vertices + "3 0 1 2 # 9\n3 0 2 3\n");
-  EXPECT_EQ(warned("colors of faces left out"), 0u);
-  loadBytes("off", "OFF 4 2 0\n" + vertices + "3 0 1 2\n\n3 0 2 3 255 0 0\n");
-  EXPECT_EQ(warned("colors of faces left out"), 1u);
+  expectRead("m.off",
+             {
+                 // The first quadrilateral has a corner that is beyond the range of floats.
+                 {"OFF\n6 2 0\n" + vertices + "2 0 1e39\n2 1 0\n4 1 4 5 2\n4 0 1 2 3\n",
+                  joined("2; ", kBadFace, " (1 from *")},
+                 {"OFF\n4 1 0\n" + vertices + "4 0 1 2 7\n",
+                  "2; vertex index out of range replaced by the last vertex (1 from *"},
+                 // Colors of vertices are read, and a comment is no color.
+                 {"OFF\n4 2 0\n" + vertices + "3 0 1 2 # 9\n3 0 2 3\n", "2"},
+                 {"OFF 4 2 0\n" + vertices + "3 0 1 2\n\n3 0 2 3 255 0 0\n",
+                  "2; colors of faces left out (1 from *"},
+             });
 }
 
 // STL files have normals beside corners, OFF files have not.
@@ -335,27 +292,25 @@ TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
     stl += bytesOf<float>({0, 0, 1, nan, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(2, '\0');
   }
 
-  const std::string off = "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  const auto expectNothing = [&](const char* kind, const std::string& file) {
-    const std::string error =
-        errorOf([&] { EXPECT_TRUE(trianglesOf(loadBytes(kind, file)).empty()) << kind; });
-    EXPECT_TRUE(error == "no error" || hasText(error, "it has no faces")) << kind << error;
-  };
-  expectNothing("stl", stl);
-  expectNothing("off", off);
+  const std::pair<const char*, std::string> files[] = {
+      {"stl", stl}, {"off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
+  for (const auto& [kind, file] : files) {
+    const std::string error = errorOf(
+        [&, k = kind, f = file] { EXPECT_TRUE(trianglesOf(loadBytes(k, f)).empty()) << k; });
+    if (error != "no error") expectLike(error, "*it has no faces*");
+  }
 }
 
 TEST_F(Assimp, BadFilesEndWithAnError) {
-  EXPECT_EQ(errorOf([&] { loadBytes("stl", ""); }),
-            "3 m.stl: expected a model that the library assimp can read, but it is empty");
-  EXPECT_EQ(errorOfFile(root_ + "none.fbx").substr(0, 2), "4 ");
-  EXPECT_TRUE(
-      hasText(errorOf([&] { loadBytes("off", "OFF\n0 0 0\n"); }), "3 m.off: expected a model"));
+  expectErrorsOf(
+      "m.stl",
+      {{"", "3 m.stl: expected a model that the library assimp can read, but it is empty"}});
+  expectLike(errorOfFile(root_ + "none.fbx"), "4 *");
 
   // A small file has 512 MB. Sanitizers end a process without memory in their own way.
-  const std::string many =
-      errorOf([&] { loadBytes("off", "OFF\n60000000 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"); });
-  EXPECT_TRUE(hasText(many, kSanitized ? "expected a model" : "it needs more memory")) << many;
+  expectErrorsOf("m.off", {{"OFF\n0 0 0\n", "3 m.off: expected a model*"},
+                           {"OFF\n60000000 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                            kSanitized ? "*expected a model*" : "*it needs more memory*"}});
 
   // A count of 2,000,000,000 vertices needs more memory than is allowed.
   options_.maxMemoryBytes = 256u << 20;

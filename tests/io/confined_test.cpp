@@ -26,72 +26,68 @@ namespace {
 
 constexpr std::uint64_t kMemory = 64u << 20;
 
-std::string failureOf(const std::function<void(const ConfinedWriter&)>& work) {
-  return runConfined("a.glb", work, kMemory, 20).failure;
+using Work = std::function<void(const ConfinedWriter&)>;
+
+ConfinedAnswer answerOf(const Work& work) { return runConfined("a.glb", work, kMemory, 20); }
+
+std::string failureOf(const Work& work) { return answerOf(work).failure; }
+
+// Expects what a child process, whose address space is limited to so many bytes, says of itself.
+void expectOfChild(rlim_t bytes, const std::function<bool()>& isRight) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const rlimit limits{bytes, bytes};
+    setrlimit(RLIMIT_AS, &limits);
+    _exit(isRight() ? 0 : 1);
+  }
+
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST(Confined, AnswersWithWhatItComputes) {
   int seen = 7;
   const std::string text = "what the parent knows";
-  const ConfinedAnswer answer = runConfined(
-      "a.glb",
-      [&](const ConfinedWriter& write) {
-        seen = 8;
-        const std::vector<char> much(1 << 20, 'x');  // more than a pipe holds
-        write(text.data(), text.size());
-        write(much.data(), much.size());
-      },
-      kMemory, 20);
+  const ConfinedAnswer answer = answerOf([&](const ConfinedWriter& write) {
+    seen = 8;
+    const std::vector<char> much(1 << 20, 'x');  // more than a pipe holds
+    write(text.data(), text.size());
+    write(much.data(), much.size());
+  });
 
   EXPECT_EQ(answer.failure, "");
   EXPECT_EQ(answer.bytes, text + std::string(1 << 20, 'x'));
   EXPECT_EQ(seen, 7) << "the child changed the parent";
 }
 
-// The process limits its own address space to 1 GB more than it uses. A child that is allowed 64 GB
+// The address space is limited to 1 GB more than the process uses. A child that is allowed 64 GB
 // must start all the same.
 TEST(Confined, LimitsOfAddressSpaceAreKept) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take address space of their own";
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30);
-    const rlimit limits{most, most};
-    setrlimit(RLIMIT_AS, &limits);
-
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t used = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  expectOfChild(used + (rlim_t{1} << 30), [] {
     const ConfinedAnswer answer = runConfined(
         "a.glb", [](const ConfinedWriter& write) { write("yes", 3); }, std::uint64_t{64} << 30, 20);
-    _exit(answer.bytes == "yes" && answer.failure.empty() ? 0 : 1);
-  }
-
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    return answer.bytes == "yes" && answer.failure.empty();
+  });
 }
 
 // A process that may take no more addresses than it has cannot share memory with a child.
 TEST(Confined, ErrorsNameWhatTheChildWasFor) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take address space of their own";
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    const rlimit none{1, 1};
-    setrlimit(RLIMIT_AS, &none);
-    std::string said;
+  expectOfChild(1, [] {
     try {
-      runConfined(
-          "a.glb", [](const ConfinedWriter&) {}, kMemory, 20);
+      answerOf([](const ConfinedWriter&) {});
     } catch (const Error& error) {
-      if (error.status() == ExitStatus::limit) said = error.what();
+      return error.status() == ExitStatus::limit &&
+             std::string(error.what()).starts_with("a.glb: cannot share memory");
     }
-    _exit(said.starts_with("a.glb: cannot share memory") ? 0 : 1);
-  }
-
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    return false;
+  });
 }
 
 TEST(Confined, CrashesAreReported) {
@@ -102,13 +98,10 @@ TEST(Confined, CrashesAreReported) {
 }
 
 TEST(Confined, BytesBeforeACrashArrive) {
-  const ConfinedAnswer answer = runConfined(
-      "a.glb",
-      [](const ConfinedWriter& write) {
-        write("half", 4);
-        throw std::runtime_error("no");
-      },
-      kMemory, 20);
+  const ConfinedAnswer answer = answerOf([](const ConfinedWriter& write) {
+    write("half", 4);
+    throw std::runtime_error("no");
+  });
 
   EXPECT_EQ(answer.bytes, "half");
   EXPECT_NE(answer.failure, "");
@@ -151,13 +144,10 @@ TEST(Confined, StartsFromAProgramWithThreads) {
   }
 
   for (int i = 0; i < 40; ++i) {
-    const ConfinedAnswer answer = runConfined(
-        "a.glb",
-        [](const ConfinedWriter& write) {
-          const std::vector<std::string> many(1000, std::string(1000, 'y'));
-          write(many[999].data(), 1000);
-        },
-        kMemory, 20);
+    const ConfinedAnswer answer = answerOf([](const ConfinedWriter& write) {
+      const std::vector<std::string> many(1000, std::string(1000, 'y'));
+      write(many[999].data(), 1000);
+    });
     EXPECT_EQ(answer.failure, "");
     EXPECT_EQ(answer.bytes, std::string(1000, 'y'));
   }

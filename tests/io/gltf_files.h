@@ -1,13 +1,10 @@
 // glTF files built by tests.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
+#include <bit>
+#include <map>
 #include <set>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <type_traits>
 
 #include "scene_files.h"
 
@@ -33,24 +30,24 @@ inline std::string base64(const std::string& bytes) {
 
 template <typename T>
 std::string bytesOf(const std::vector<T>& values) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// Returns a number of 32 bits as a file has it.
+inline std::string word(std::size_t x) {
+  return bytesOf<std::uint32_t>({static_cast<std::uint32_t>(x)});
 }
 
 // Gathers buffer views and accessors over one buffer.
 class GltfBuilder {
  public:
   // Returns the number of the view.
-  int view(const std::string& bytes, int stride = 0) {
+  int view(const std::string& bytes, std::size_t stride = 0) {
     // Accessors of floats need views that are aligned to 4 bytes.
     while (data_.size() % 4 != 0) data_ += '\0';
 
-    views_ += std::string(views_.empty() ? "" : ",") +
-              "{\"buffer\":0,\"byteOffset\":" + std::to_string(data_.size()) +
-              ",\"byteLength\":" + std::to_string(bytes.size()) +
-              (stride > 0 ? ",\"byteStride\":" + std::to_string(stride) : "") + "}";
-
+    addItem(views_, joined("{'buffer':0,'byteOffset':", data_.size(), ",'byteLength':",
+                           bytes.size(), stride > 0 ? joined(",'byteStride':", stride) : "", "}"));
     data_ += bytes;
     return viewCount_++;
   }
@@ -59,50 +56,57 @@ class GltfBuilder {
   // and begins with a comma. A negative `view` means that there is none.
   std::string accessor(int view, int componentType, const std::string& type, std::size_t count,
                        const std::string& rest = "") {
-    accessors_ += std::string(accessors_.empty() ? "" : ",") +
-                  (view >= 0 ? "{\"bufferView\":" + std::to_string(view) + "," : "{") +
-                  "\"componentType\":" + std::to_string(componentType) + ",\"type\":\"" + type +
-                  "\",\"count\":" + std::to_string(count) + rest + "}";
-    return std::to_string(accessorCount_++);
+    const std::string source = view >= 0 ? joined("'bufferView':", view, ",") : "";
+    addItem(accessors_, joined("{", source, "'componentType':", componentType, ",'type':'", type,
+                               "','count':", count, rest, "}"));
+    return joined(accessorCount_++);
   }
 
-  std::string positions(const std::vector<float>& xyz) {
-    return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3, boundsOf(xyz));
+  // Adds an accessor with a view of its own. With a stride, elements begin so many bytes apart.
+  template <typename T>
+  std::string add(const std::string& type, const std::vector<T>& values, std::size_t stride = 0,
+                  const std::string& rest = "") {
+    static const std::map<std::string, std::size_t> kComponents{
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+    const std::size_t size = stride > 0 ? stride : kComponents.at(type) * sizeof(T);
+    return accessor(view(bytesOf(values), stride), kComponentType<T>, type,
+                    values.size() * sizeof(T) / size, rest);
   }
 
-  std::string uvs(const std::vector<float>& uv) {
-    return accessor(view(bytesOf(uv)), 5126, "VEC2", uv.size() / 2);
+  // Returns a member of an accessor that replaces its elements of these numbers.
+  template <typename T>
+  std::string sparse(const std::vector<std::uint16_t>& which, const std::vector<T>& values) {
+    const int numbers = view(bytesOf(which)), elements = view(bytesOf(values));
+    return joined(",'sparse':{'count':", which.size(), ",'indices':{'bufferView':", numbers,
+                  ",'componentType':5123},'values':{'bufferView':", elements, "}}");
   }
 
-  std::string indices(const std::vector<std::uint16_t>& i) {
-    return accessor(view(bytesOf(i)), 5123, "SCALAR", i.size());
+  std::string floats(const std::string& type, const std::vector<float>& values) {
+    return add(type, values);
   }
+
+  std::string positions(const std::vector<float>& xyz) { return add("VEC3", xyz); }
+  std::string indices(const std::vector<std::uint16_t>& i) { return add("SCALAR", i); }
 
   // `members` are those of the root object besides asset, buffers, views and accessors.
   std::string json(const std::string& members, bool binary = false) const {
-    std::string text = "{\"asset\":{\"version\":\"2.0\"}";
+    std::string text = "{'asset':{'version':'2.0'}";
     if (!data_.empty()) {
-      text += ",\"buffers\":[{\"byteLength\":" + std::to_string(data_.size());
-      if (!binary)
-        text += ",\"uri\":\"data:application/octet-stream;base64," + base64(data_) + "\"";
-      text += "}],\"bufferViews\":[" + views_ + "]";
+      const std::string uri = ",'uri':'data:application/octet-stream;base64," + base64(data_) + "'";
+      text += joined(",'buffers':[{'byteLength':", data_.size(), binary ? "" : uri,
+                     "}],'bufferViews':[", views_, "]");
     }
 
-    if (!accessors_.empty()) text += ",\"accessors\":[" + accessors_ + "]";
-    const std::string names = extensionsIn(members);
-    if (!names.empty()) text += ",\"extensionsUsed\":[" + names + "]";
+    if (!accessors_.empty()) text += ",'accessors':[" + accessors_ + "]";
+    if (members.find("extensionsUsed") == std::string::npos) text += extensionsIn(members);
 
     return text + (members.empty() ? "" : "," + members) + "}";
   }
 
   std::string glb(const std::string& members) const {
-    std::string text = json(members, true), data = data_;
-    while (text.size() % 4 != 0) text += ' ';
-    while (data.size() % 4 != 0) data += '\0';
-
-    const auto word = [](std::size_t x) {
-      return bytesOf<std::uint32_t>({static_cast<std::uint32_t>(x)});
-    };
+    std::string text = asJson(json(members, true)), data = data_;
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    data.resize((data.size() + 3) / 4 * 4);
 
     const std::string chunks =
         word(text.size()) + "JSON" + text + word(data.size()) + std::string("BIN\0", 4) + data;
@@ -110,83 +114,29 @@ class GltfBuilder {
   }
 
  private:
-  // Returns the names in quotes, each once, or nothing where the members declare the extensions
-  // themselves.
+  // As glTF numbers them: bytes, words of 16 bits and words of 32 bits, with a sign and without.
+  template <typename T>
+  static constexpr int kComponentType =
+      std::is_floating_point_v<T> ? 5126
+                                  : 5120 + 2 * std::countr_zero(sizeof(T)) + std::is_unsigned_v<T>;
+
+  // Returns a member that names the extensions in `members`, each once, or nothing if there are
+  // none.
   static std::string extensionsIn(const std::string& members) {
     std::set<std::string> names;
-    if (members.find("extensionsUsed") != std::string::npos) return "";
-
-    for (const std::string beginning : {"\"KHR_", "\"EXT_"}) {
-      for (std::size_t at = members.find(beginning); at != std::string::npos;) {
-        const std::size_t end = members.find('"', at + 1);
-        names.insert(members.substr(at, end + 1 - at));
-        at = members.find(beginning, end);
-      }
+    for (std::size_t at = 0; (at = members.find('\'', at)) != std::string::npos; ++at) {
+      const std::string name = members.substr(at, members.find('\'', at + 1) + 1 - at);
+      if (name.starts_with("'KHR_") || name.starts_with("'EXT_")) names.insert(name);
     }
 
     std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
-    return list;
-  }
-
-  // Positions need bounds by the specification.
-  static std::string boundsOf(const std::vector<float>& xyz) {
-    std::ostringstream low, high;
-    low.precision(9);
-    high.precision(9);
-
-    for (std::size_t k = 0; k < 3 && xyz.size() >= 3; ++k) {
-      float least = xyz[k], largest = xyz[k];
-      for (std::size_t i = k; i < xyz.size(); i += 3) {
-        least = std::min(least, xyz[i]);
-        largest = std::max(largest, xyz[i]);
-      }
-
-      low << (k ? "," : "") << least;
-      high << (k ? "," : "") << largest;
-    }
-
-    return ",\"min\":[" + low.str() + "],\"max\":[" + high.str() + "]";
+    for (const std::string& name : names) addItem(list, name);
+    return list.empty() ? "" : ",'extensionsUsed':[" + list + "]";
   }
 
   std::string data_, views_, accessors_;
   int viewCount_ = 0, accessorCount_ = 0;
 };
-
-// A scene whose only node shows a mesh of one primitive.
-inline std::string oneMesh(const std::string& primitive) {
-  return "\"meshes\":[{\"primitives\":[" + primitive +
-         "]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0";
-}
-
-class GltfTest : public SceneFileTest {
- protected:
-  SceneDescription loadText(const std::string& text) { return load(save("m.gltf", text)); }
-
-  // Loads a file whose only node shows these primitives.
-  SceneDescription loadShown(const GltfBuilder& b, const std::string& primitives) {
-    return loadText(b.json(oneMesh(primitives)));
-  }
-
-  std::string errorOfText(const std::string& text) {
-    return errorOf([&] { loadText(text); });
-  }
-
-  // Returns a corner of a triangle of instance `i`, in the world.
-  static Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t triangle,
-                        std::size_t corner) {
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = scene.objects[instance.object].meshes[0];
-    return instance.toWorld.point(Vec3d(mesh.positions[mesh.triangles[triangle][corner]]));
-  }
-};
-
-// Positions and matrices are floats of about 1, as exact as this.
-inline constexpr double kPoseRounding = 1e-6;
-
-inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = kPoseRounding) {
-  EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-}
 
 // The unit triangle in the plane z = 0, seen from +z.
 inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -195,18 +145,49 @@ inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 // `rest` further members; both begin with a comma.
 inline std::string primitive(const std::string& positions, const std::string& attributes = "",
                              const std::string& rest = "") {
-  return "{\"attributes\":{\"POSITION\":" + positions + attributes + "}" + rest + "}";
+  return "{'attributes':{'POSITION':" + positions + attributes + "}" + rest + "}";
 }
 
-// Returns a primitive that shows this triangle.
-inline std::string triangle(GltfBuilder& b, const std::string& rest = "") {
-  return primitive(b.positions(kTriangleXyz), "", rest);
+// A scene whose only node shows a mesh of one primitive.
+inline std::string oneMesh(const std::string& primitive) {
+  return "'meshes':[{'primitives':[" + primitive +
+         "]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}],'scene':0";
 }
 
-inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
+// A test of files that it builds.
+class GltfTest : public SceneFileTest, protected GltfBuilder {
+ protected:
+  // Returns a primitive that shows the unit triangle.
+  std::string triangle(const std::string& rest = "") {
+    return primitive(positions(kTriangleXyz), "", rest);
+  }
+
+  SceneDescription loadText(const std::string& text) { return load(save("m.gltf", text)); }
+
+  // Loads a file whose only node shows these primitives.
+  SceneDescription loadShown(const std::string& primitives) {
+    return loadText(json(oneMesh(primitives)));
+  }
+
+  std::string errorOfText(const std::string& text) {
+    return errorOf([&] { loadText(text); });
+  }
+
+  // Expects the errors of files that differ from this one in a text, which occurs there.
+  struct Damage {
+    std::string what, by, error;
+  };
+  void expectErrorsOfDamage(const std::string& whole, const std::vector<Damage>& damages) {
+    for (const auto& [what, by, error] : damages) {
+      SCOPED_TRACE(by);
+      expectLike(errorOfText(replaced(whole, what, by)), error);
+    }
+  }
+
+  static void expectTriangle(const SceneDescription& scene, const std::vector<Vec3d>& corners,
+                             std::size_t i = 0, double tolerance = kPoseRounding) {
+    for (std::size_t k = 0; k < 3; ++k) expectNear(cornerOf(scene, k, i), corners[k], tolerance);
+  }
+};
 
 }  // namespace whit

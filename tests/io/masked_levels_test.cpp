@@ -1,5 +1,4 @@
 // Textures with holes keep their color and their area in mip levels, whichever format names them.
-#include <gtest/gtest.h>
 
 #include "bake/mip_maps.h"
 #include "gltf_pictures.h"
@@ -11,8 +10,6 @@ constexpr int kSide = 32;
 constexpr std::uint32_t kGreen = 1023;  // codes of the leaf's green; all other texels are black
 constexpr int kLeafWidth = 8, kLeafHeight = 16;
 
-bool isLeaf(int x, int y) { return x < kLeafWidth && y < kLeafHeight; }
-
 // The share of the leaf that is covered: bilinear lookups show some of the leaf up to half a texel
 // beyond its edges.
 constexpr double kShare =
@@ -21,23 +18,23 @@ constexpr double kShare =
 class MaskedLevels : public GltfMaterials {
  protected:
   MaskedLevels() {
-    std::vector<std::vector<int>> leaf, color, mask;
+    Texels leaf, color, mask;
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        const int c = isLeaf(x, y) ? 255 : 0;
-        leaf.push_back({0, c, 0, c});
-        color.push_back({0, c, 0});
-        mask.push_back({c});
+        const bool isLeaf = x < kLeafWidth && y < kLeafHeight;
+        leaf.push_back(isLeaf ? "00ff00ff" : "00000000");
+        color.push_back(isLeaf ? "00ff00" : "000000");
+        mask.push_back(isLeaf ? "ff" : "00");
       }
     }
 
-    save("leaf.tga", tga(kSide, kSide, leaf));
-    save("color.tga", tga(kSide, kSide, color));
-    save("mask.tga", tga(kSide, kSide, mask));
+    saveImage("leaf.tga", leaf, kSide);
+    saveImage("color.tga", color, kSide);
+    saveImage("mask.tga", mask, kSide);
   }
 
-  void expectGreenLevels(SceneDescription description, bool isCovered) {
-    const Scene scene = Scene::finalize(std::move(description), warnings_);
+  void expectGreenLevels(const SceneDescription& description, bool isCovered) {
+    const Scene scene = bake(description);
     const MipMaps maps(scene);
 
     int leaves = 0;
@@ -67,8 +64,7 @@ class MaskedLevels : public GltfMaterials {
 
   SceneDescription gltf(const std::string& mode) {
     useImages({"leaf.tga"});
-    return loadText(sceneText(
-        {{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"" + mode + "\""), 1}}));
+    return loadMaterial(matte("'baseColorTexture':{'index':0}", "'alphaMode':'" + mode + "'"));
   }
 
   SceneDescription obj(const std::string& maps) {
@@ -79,23 +75,18 @@ class MaskedLevels : public GltfMaterials {
   }
 
   SceneDescription sceneFile(const std::string& mask) {
-    return loadMembers(R"("textures": {"c": {"image": "color.tga"}, "m": {"image": "mask.tga"}},)"
-                       R"("materials": {"m": {"diffuseMap": "c", ")" +
-                       mask + R"(": "m"}}, "scene": [{"shape": "quad", "material": "m"}])");
+    return loadMembers(
+        "'textures': {'c': {'image': 'color.tga'}, 'm': {'image': 'mask.tga'}},'materials': {'m': "
+        "{'diffuseMap': 'c', '" +
+        mask + "': 'm'}}, 'scene': [{'shape': 'quad', 'material': 'm'}]");
   }
 };
 
-TEST_F(MaskedLevels, OfGltf) {
+TEST_F(MaskedLevels, OfEveryFormat) {
   expectGreenLevels(gltf("MASK"), false);
   expectGreenLevels(gltf("BLEND"), true);
-}
-
-TEST_F(MaskedLevels, OfObj) {
   expectGreenLevels(obj("map_Kd color.tga\nmap_d mask.tga\n"), false);
   expectGreenLevels(obj("map_Kd leaf.tga\n"), false);
-}
-
-TEST_F(MaskedLevels, OfSceneFiles) {
   expectGreenLevels(sceneFile("alphaMap"), false);
   expectGreenLevels(sceneFile("coverageMap"), true);
 }

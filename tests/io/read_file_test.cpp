@@ -1,16 +1,10 @@
 // Files that contain something other than what their names promise, or text in another encoding.
-#include "gltf_files.h"
-#include "scene/description.h"
+#include "scene_files.h"
 
 namespace whit {
 namespace {
 
-class ReadFile : public GltfTest {
- protected:
-  std::string errorOfFile(const std::string& name, const std::string& text) {
-    return SceneFileTest::errorOfFile(save(name, text));
-  }
-};
+using ReadFile = SceneFileTest;
 
 constexpr char kPointer[] =
     "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a214614ab2935c943f9e0ff69d22e\n"
@@ -18,23 +12,21 @@ constexpr char kPointer[] =
 const std::string kSaid =
     ": expected the file itself, found a Git LFS pointer to it (git lfs pull fetches it)";
 
-TEST_F(ReadFile, PointersOfGitLfsAreNoModels) {
-  for (const char* name : {"m.obj", "m.ply", "m.gltf", "m.glb", "s.json"}) {
-    EXPECT_EQ(errorOfFile(name, kPointer), "3 " + std::string(name) + kSaid);
+TEST_F(ReadFile, PointersOfGitLfsAreNoModelsAndImages) {
+  for (const std::string name : {"m.obj", "m.ply", "m.gltf", "m.glb", "s.json"}) {
+    expectErrorsOf(name, {{kPointer, "3 " + name + kSaid}});
   }
 
   save("p.bin", kPointer);
-  EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":1,"
-                        "\"uri\":\"p.bin\"}]}"),
-            "3 p.bin" + kSaid);
-}
+  expectErrorsOf("m.gltf", {{"{'asset':{'version':'2.0'},"
+                             "'buffers':[{'byteLength':1,'uri':'p.bin'}]}",
+                             "3 p.bin" + kSaid}});
 
-TEST_F(ReadFile, PointersOfGitLfsAreNoImages) {
-  for (const char* name : {"p.png", "p.tga"}) {
+  for (const std::string name : {"p.png", "p.tga"}) {
     save(name, kPointer);
-    EXPECT_EQ(errorOfMembers("\"textures\": {\"t\": {\"image\": \"" + std::string(name) +
-                             "\"}}, \"materials\": {\"m\": {\"diffuseMap\": \"t\"}}"),
-              "3 " + std::string(name) + kSaid);
+    expectErrorsOfMembers(
+        {{"'textures': {'t': {'image': '" + name + "'}}, 'materials': {'m': {'diffuseMap': 't'}}",
+          "3 " + name + kSaid}});
   }
 }
 
@@ -53,10 +45,10 @@ std::string inUtf16(const std::string& text, bool little, bool marked) {
 TEST_F(ReadFile, Utf16IsRefused) {
   for (const bool little : {false, true}) {
     for (const bool marked : {false, true}) {
-      for (const char* name : {"m.obj", "m.ply", "m.gltf", "s.json"}) {
-        EXPECT_EQ(
-            errorOfFile(name, inUtf16("v 1 2 3\n", little, marked)),
-            "3 " + std::string(name) + ": expected text in UTF-8, found UTF-16: save it as UTF-8");
+      for (const std::string name : {"m.obj", "m.ply", "m.gltf", "s.json"}) {
+        expectErrorsOf(
+            name, {{inUtf16("v 1 2 3\n", little, marked),
+                    "3 " + name + ": expected text in UTF-8, found UTF-16: save it as UTF-8"}});
       }
     }
   }
@@ -64,9 +56,8 @@ TEST_F(ReadFile, Utf16IsRefused) {
 
 // Some editors write a byte order mark before the first line.
 TEST_F(ReadFile, TheMarkOfUtf8IsNoPartOfTheText) {
-  EXPECT_EQ(triangleCount(load(save("m.obj", "\xef\xbb\xbf" + std::string(kTriangleObj)))), 1u);
-  EXPECT_TRUE(warnings_.entries().empty());
-  EXPECT_EQ(errorOfFile("m.ply", "\xef\xbb\xbfobj\n"), "3 m.ply:1: expected a line \"ply\"");
+  expectRead("m.obj", {{"\xef\xbb\xbf" + kTriangleObj, "1"}});
+  expectErrorsOf("m.ply", {{"\xef\xbb\xbfobj\n", "3 m.ply:1: expected a line \"ply\""}});
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // Which files a scene may name, and where shipped scenes are found.
-#include <cstdlib>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "scene_files.h"
@@ -11,9 +9,9 @@ namespace {
 
 class ScenePaths : public SceneFileTest {
  protected:
-  std::string errorOfModel(const std::string& path) {
-    return errorOfMembers("\"scene\": [{\"model\": \"" + path + "\"}]");
-  }
+  const ErrorOf errorOfModel = [this](const std::string& path) {
+    return errorOfMembers("'scene': [{'model': '" + path + "'}]");
+  };
 
   // Restores the variables for the other tests of the program.
   ~ScenePaths() override {
@@ -38,25 +36,28 @@ class ScenePaths : public SceneFileTest {
 TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
   save("sub/in.obj", kTriangleObj);
   save("../out.obj", kTriangleObj);
+  save("../inside2/out.obj", kTriangleObj);  // a folder whose name begins alike
+  std::filesystem::create_symlink(folder_ + "/out.obj", root_ + "link.obj");
+
   const std::string leaves =
       " leaves the scene's folder and $WHIT_DATA (--allow-outside permits that)";
-
-  EXPECT_EQ(errorOfModel("sub/in.obj"), "no error");
-  EXPECT_EQ(errorOfModel("sub/../sub/in.obj"), "no error");
-  EXPECT_EQ(errorOfModel("../out.obj"), "3 s.json#/scene/0/model: \"../out.obj\"" + leaves);
-  EXPECT_EQ(errorOfModel("/etc/passwd"), "3 s.json#/scene/0/model: \"/etc/passwd\"" + leaves);
-
-  std::filesystem::create_symlink(folder_ + "/out.obj", root_ + "link.obj");
-  EXPECT_EQ(errorOfModel("link.obj"), "3 s.json#/scene/0/model: \"link.obj\"" + leaves);
+  expectErrors(errorOfModel,
+               {
+                   {"sub/in.obj", "no error"},
+                   {"sub/../sub/in.obj", "no error"},
+                   {"../out.obj", "3 s.json#/scene/0/model: \"../out.obj\"" + leaves},
+                   {"/etc/passwd", "3 s.json#/scene/0/model: \"/etc/passwd\"" + leaves},
+                   {"link.obj", "3 s.json#/scene/0/model: \"link.obj\"" + leaves},
+                   {"../inside2/out.obj", "3 *"},
+               });
 
   options_.allowOutside = true;
-  EXPECT_EQ(errorOfModel("../out.obj"), "no error");
-  EXPECT_EQ(errorOfModel("link.obj"), "no error");
+  expectErrors(errorOfModel, {{"../out.obj", "no error"}, {"link.obj", "no error"}});
 }
 
 TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
   save("in.obj", kTriangleObj);
-  save("s.json", "{\"whit\": 1, \"scene\": [{\"model\": \"in.obj\"}]}");
+  save("s.json", "{'whit': 1, 'scene': [{'model': 'in.obj'}]}");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(root_);
 
@@ -65,18 +66,15 @@ TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
   std::filesystem::current_path(before);
 }
 
-TEST_F(ScenePaths, AFolderWhoseNameBeginsAlikeIsOutside) {
-  save("../inside2/out.obj", kTriangleObj);
-  EXPECT_EQ(errorOfModel("../inside2/out.obj").substr(0, 2), "3 ");
-}
-
 TEST_F(ScenePaths, TheDataFolderIsAllowed) {
   save("../data/in.obj", kTriangleObj);
   setenv("WHIT_DATA", (folder_ + "/data").c_str(), 1);
 
-  EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"), "no error");
-  EXPECT_EQ(errorOfModel("$WHIT_DATA/../out.obj").substr(0, 2), "3 ");
-  EXPECT_EQ(errorOfModel("$WHIT_DATABASE/in.obj").substr(0, 2), "3 ");
+  expectErrors(errorOfModel, {
+                                 {"$WHIT_DATA/in.obj", "no error"},
+                                 {"$WHIT_DATA/../out.obj", "3 *"},
+                                 {"$WHIT_DATABASE/in.obj", "3 *"},
+                             });
 
   // Without the variable the scene is as valid as before, but the file cannot be found.
   unsetenv("WHIT_DATA");
@@ -86,31 +84,37 @@ TEST_F(ScenePaths, TheDataFolderIsAllowed) {
 }
 
 TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {
-  EXPECT_EQ(errorOfModel("http://host/in.obj"),
-            "3 s.json#/scene/0/model: expected the path of a file on this machine, found "
-            "http://host/in.obj");
-  EXPECT_EQ(
-      errorOfModel("a\\u0000.obj"),
-      "3 s.json#/scene/0/model: expected the path of a file on this machine, found a NUL byte");
-  EXPECT_EQ(errorOfModel(""),
-            "3 s.json#/scene/0/model: expected the path of a file, found an empty string");
+  expectErrors(
+      errorOfModel,
+      {
+          {"http://host/in.obj",
+           "3 s.json#/scene/0/model: expected the path of a file on this machine, found "
+           "http://host/in.obj"},
+          {"a\\u0000.obj",
+           "3 s.json#/scene/0/model: expected the path of a file on this machine, found a NUL "
+           "byte"},
+          {"", "3 s.json#/scene/0/model: expected the path of a file, found an empty string"},
+      });
 }
 
 TEST_F(ScenePaths, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOfFile(root_ + "none.json"), "4 cannot open none.json: no such file");
   EXPECT_EQ(errorOfFile(root_ + "none.obj"), "4 cannot open none.obj: no such file");
-  EXPECT_EQ(errorOfModel("sub.obj"), "4 s.json#/scene/0/model: cannot open sub.obj: no such file");
-  EXPECT_EQ(errorOfModel("sub"),
-            "3 s.json#/scene/0/model: expected a model (.3ds, .dae, .fbx, .glb, .gltf, .obj, .off, "
-            ".ply, .stl, .vrm), found \"sub\"");
+  expectErrors(errorOfModel,
+               {
+                   {"sub.obj", "4 s.json#/scene/0/model: cannot open sub.obj: no such file"},
+                   {"sub",
+                    "3 s.json#/scene/0/model: expected a model (.3ds, .dae, .fbx, .glb, .gltf, "
+                    ".obj, .off, .ply, .stl, .vrm), found \"sub\""},
+               });
 
   std::filesystem::create_directory(root_ + "folder.json");
   EXPECT_EQ(errorOfFile(root_ + "folder.json"), "4 cannot read folder.json: not a file");
-  EXPECT_EQ(errorOfFile(save("a.txt", "")).substr(0, 2), "2 ");
+  expectErrorsOf("a.txt", {{"", "2 *"}});
 }
 
 TEST_F(ScenePaths, ShippedScenesByName) {
-  save("hall.json", "{\"whit\": 1, \"parameters\": {\"w\": 5}, \"size\": [\"$w\", 1]}");
+  save("hall.json", "{'whit': 1, 'parameters': {'w': 5}, 'size': ['$w', 1]}");
   setenv("WHIT_SCENES", root_.c_str(), 1);
   EXPECT_EQ(load("hall").name, "hall");
   EXPECT_EQ(load("hall?w=9").width, 9);

@@ -7,10 +7,10 @@
 namespace whit {
 namespace {
 
-constexpr char kMembers[] = R"("size": [48, 32],
-  "lights": [{"name": "lamp", "position": [3, 6, 4], "intensity": 60, "radius": 0.1}],
-  "materials": {"floor": {"diffuse": 0.5}, "a/b~c=d": {"mirror": 0.8}},
-  "scene": [{"shape": "quad", "material": "floor"}, {"shape": "box", "material": "a/b~c=d"}])";
+constexpr char kMembers[] =
+    "'size': [48, 32], 'lights': [{'name': 'lamp', 'position': [3, 6, 4], 'intensity': 60, "
+    "'radius': 0.1}], 'materials': {'floor': {'diffuse': 0.5}, 'a/b~c=d': {'mirror': 0.8}}, "
+    "'scene': [{'shape': 'quad', 'material': 'floor'}, {'shape': 'box', 'material': 'a/b~c=d'}]";
 
 constexpr char kModel[] =
     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n";
@@ -24,9 +24,9 @@ class SceneSettings : public SceneFileTest {
     return loadMembers(members);
   }
 
-  std::string errorWith(const std::string& setting) {
+  const ErrorOf errorWith = [this](const std::string& setting) {
     return errorOf([&] { with({setting}); });
-  }
+  };
 
   SceneDescription modelWith(const std::vector<std::string>& settings) {
     save("m.mtl", kLibrary);
@@ -37,7 +37,7 @@ class SceneSettings : public SceneFileTest {
 
 TEST_F(SceneSettings, TakeThePlaceOfMembers) {
   const SceneDescription scene =
-      with({"/lights/0/intensity=[1, 2, 3]", "/materials/floor={\"roughness\": 0.25}",
+      with({"/lights/0/intensity=[1, 2, 3]", "/materials/floor={'roughness': 0.25}",
             "/materials/a~1b~0c=d/mirror=0.5", "/size/1=16"});
 
   EXPECT_EQ(scene.lights[0].intensity, Rgb(1, 2, 3));
@@ -50,7 +50,7 @@ TEST_F(SceneSettings, TakeThePlaceOfMembers) {
 
 TEST_F(SceneSettings, MakeWhatIsMissing) {
   const SceneDescription scene =
-      with({"/sky/color=0.5", "/lights/-={\"position\": [0, 1, 0], \"intensity\": 7}",
+      with({"/sky/color=0.5", "/lights/-={'position': [0, 1, 0], 'intensity': 7}",
             "/cameras/side/eye=[1, 0, 0]", "/cameras/side/at=[0, 0, 0]"});
 
   EXPECT_EQ(scene.sky.zenith, Rgb(0.5f));
@@ -68,33 +68,28 @@ TEST_F(SceneSettings, LaterOnesWin) {
 }
 
 TEST_F(SceneSettings, ErrorsAreThoseOfTheFile) {
-  EXPECT_EQ(errorWith("/materials/floor/diffuse=\"red\"").find("3 s.json#/materials/floor/diffuse"),
-            0u);
-  EXPECT_EQ(errorWith("/materials/floor/ruffness=1").find("3 s.json#/materials/floor/ruffness"),
-            0u);
-  EXPECT_EQ(errorWith("/lihgts/0=1").find("3 s.json#/lihgts"), 0u);
-
-  EXPECT_EQ(errorWith("/sky={\"colour\": 1}"),
-            "3 s.json#/sky/colour: unknown key (is \"color\" meant?)");
-
-  EXPECT_EQ(errorWith("/lights/1/intensity=1"),
-            "3 s.json#/lights/1: expected an index below 1, or - for a new element, found a list "
-            "of 1");
-  EXPECT_EQ(errorWith("/lights/00/intensity=1").find("3 s.json#/lights/00: expected an index"), 0u);
-  EXPECT_EQ(errorWith("/size/0/x=1"), "3 s.json#/size/0: expected an object or a list, found 48");
-}
-
-TEST_F(SceneSettings, RefuseWhatIsNone) {
-  for (const char* text : {"", "/size", "=1", "size=1", "/sky/image=a.hdr", "/~2=1", "/a=[1,]"}) {
-    EXPECT_EQ(errorWith(text).find("2 '--set " + std::string(text) + "': expected POINTER=VALUE"),
-              0u)
-        << errorWith(text);
-  }
-  EXPECT_EQ(errorWith("/a={\"b\": 1, \"b\": 2}"), "3 --set /a#/b: this key is given twice");
-
   std::string deep;
   for (int i = 0; i <= kJsonDepthLimit; ++i) deep += "/a";
-  EXPECT_EQ(errorWith(deep + "=1").find("2 '--set /a/a"), 0u);
+  expectErrors(
+      errorWith,
+      {
+          {"/materials/floor/diffuse='red'", "3 s.json#/materials/floor/diffuse*"},
+          {"/materials/floor/ruffness=1", "3 s.json#/materials/floor/ruffness*"},
+          {"/lihgts/0=1", "3 s.json#/lihgts*"},
+          {"/sky={'colour': 1}", "3 s.json#/sky/colour: unknown key (is \"color\" meant?)"},
+          {"/lights/1/intensity=1",
+           "3 s.json#/lights/1: expected an index below 1, or - for a new element, found a list of "
+           "1"},
+          {"/lights/00/intensity=1", "3 s.json#/lights/00: expected an index*"},
+          {"/size/0/x=1", "3 s.json#/size/0: expected an object or a list, found 48"},
+          {"/a={'b': 1, 'b': 2}", "3 --set /a#/b: this key is given twice"},
+          {deep + "=1", "2 '--set /a/a*"},
+      });
+
+  for (const std::string text :
+       {"", "/size", "=1", "size=1", "/sky/image=a.hdr", "/~2=1", "/a=[1,]"}) {
+    expectErrors(errorWith, {{text, "2 '--set " + text + "': expected POINTER=VALUE*"}});
+  }
 }
 
 TEST_F(SceneSettings, OfAModel) {
@@ -114,24 +109,23 @@ TEST_F(SceneSettings, OfAModel) {
 
   EXPECT_EQ(errorOf([&] { modelWith({"/materials/bleu/mirror=0.5"}); }),
             "3 m.obj#/materials/bleu: unknown material of this model (is \"blue\" meant?)");
-  EXPECT_EQ(errorOf([&] { modelWith({"/camera=1"}); }).find("3 m.obj#/camera"), 0u);
+  expectLike(errorOf([&] { modelWith({"/camera=1"}); }), "3 m.obj#/camera*");
 }
 
 TEST_F(SceneSettings, OptionsOfAModel) {
-  save("m.obj", kTriangleObj);
   std::map<std::string, std::string> expected{
       {"background", "c8c8c8"}, {"exposure", "auto"}, {"terminator", "on"}, {"tonemap", "filmic"}};
-  EXPECT_EQ(load(root_ + "m.obj").options, expected);
+  EXPECT_EQ(loadObj(kTriangleObj).options, expected);
 
-  options_.settings = {"/options/exposure=2", "/options/spp=4", "/options/background=\"sky\""};
+  options_.settings = {"/options/exposure=2", "/options/spp=4", "/options/background='sky'"};
   expected["background"] = "sky";
   expected["exposure"] = "2";
   expected["spp"] = "4";
-  EXPECT_EQ(load(root_ + "m.obj").options, expected);
+  EXPECT_EQ(loadObj(kTriangleObj).options, expected);
 }
 
 TEST_F(SceneSettings, ItemsWithoutAMaterialHaveTheDefaultOne) {
-  const char* const members = "\"scene\": [{\"shape\": \"quad\"}]";
+  const char* const members = "'scene': [{'shape': 'quad'}]";
   EXPECT_EQ(with({}, members).materials[0].pointer, "/materials/default");
   const SceneDescription scene = with({"/materials/default/mirror=0.5"}, members);
   ASSERT_EQ(scene.materials.size(), 1u);
@@ -140,15 +134,16 @@ TEST_F(SceneSettings, ItemsWithoutAMaterialHaveTheDefaultOne) {
 
 // Wherever a material comes from, its pointer leads to it and to no other material.
 TEST_F(SceneSettings, PointersLeadToTheirMaterial) {
-  save("t.gltf", R"({"asset": {"version": "2.0"},
-    "materials": [{"name": "same"}, {"name": "same"}, {}, {}, {"name": "same#2"}]})");
+  save("t.gltf",
+       "{'asset': {'version': '2.0'}, 'materials': [{'name': 'same'}, {'name': 'same'}, {}, {}, "
+       "{'name': 'same#2'}]}");
   save("m.mtl", kLibrary);
   save("m.obj", kModel);
-  const std::string members = R"("materials": {"own/er": {"diffuse": 0.5}},
-    "objects": {"pair": [{"shape": "quad", "material": "own/er"}, {"model": "m.obj"}]},
-    "scene": [{"use": "pair"}, {"group": [{"group": [{"model": "m.obj",
-      "materials": {"*": {"diffuse": 0.4}, "red": {"mirror": 0.1}}}]}]},
-      {"model": "t.gltf"}, {"shape": "box"}])";
+  const std::string members =
+      "'materials': {'own/er': {'diffuse': 0.5}}, 'objects': {'pair': [{'shape': 'quad', "
+      "'material': 'own/er'}, {'model': 'm.obj'}]}, 'scene': [{'use': 'pair'}, {'group': "
+      "[{'group': [{'model': 'm.obj', 'materials': {'*': {'diffuse': 0.4}, 'red': {'mirror': "
+      "0.1}}}]}]}, {'model': 't.gltf'}, {'shape': 'box'}]";
 
   const std::vector<Material> before = with({}, members).materials;
   ASSERT_EQ(before.size(), 1u + 3 + 3 + 6 + 1);

@@ -1,14 +1,9 @@
-// Real glTF files, where the data folder has them: they load, and the pipeline agrees with the
-// reference.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-
+// Real models, where the data folder has them: they load completely and alike for any number of
+// threads, and the pipeline agrees with the reference.
 #include "inspect/reference_frame.h"
 #include "io/files.h"
-#include "io/load_scene.h"
 #include "render/renderer.h"
+#include "scene_files.h"
 
 namespace whit {
 namespace {
@@ -55,6 +50,48 @@ INSTANTIATE_TEST_SUITE_P(Files, GltfData,
                                          File{"blender_15_transmission/15_transmission.gltf", 4800},
                                          File{"blender_17_ior/17_ior.gltf", 60},
                                          File{"draco_pbr_next_sphere/sphere.gltf", 224}));
+
+TEST(Sponza, LoadsCompletelyForAnyNumberOfThreads) {
+  const std::filesystem::path model = dataFolder() / "crytek_sponza/sponza.obj";
+  if (!std::filesystem::exists(model)) {
+    GTEST_SKIP() << "NOT TESTED: " << model << " is not there; set WHIT_DATA";
+  }
+
+  Warnings warnings;
+  LoadOptions options;
+  options.threads = 4;
+  const SceneDescription scene = loadScene(model.string(), options, warnings);
+  EXPECT_TRUE(warnings.entries().empty());
+  EXPECT_EQ(triangleCount(scene), 262267u);  // as published with the model
+
+  std::size_t cut = 0, bumpy = 0;
+  for (const Material& material : scene.materials) {
+    cut += material.alphaMap != kNoTexture;
+    bumpy += material.normalMap != kNoTexture;
+  }
+
+  EXPECT_EQ(cut, 3u);  // leaf, plant, chain
+  EXPECT_GT(bumpy, 10u);
+  EXPECT_GT(scene.textures.size(), 30u);
+
+  for (const Texture& texture : scene.textures) {
+    EXPECT_LE(texture.width, 512) << texture.name;
+    EXPECT_GE(texture.width, 64) << texture.name;
+  }
+
+  const Scene baked = Scene::finalize(SceneDescription(scene), warnings);
+  // The published box of the model, to the decimals that are stated.
+  EXPECT_NEAR(baked.lower.x, -1920.9, 0.06);
+  EXPECT_NEAR(baked.upper.y, 1429.4, 0.06);
+
+  options.threads = 1;
+  const SceneDescription alone = loadScene(model.string(), options, warnings);
+  ASSERT_EQ(alone.textures.size(), scene.textures.size());
+  for (std::size_t i = 0; i < alone.textures.size(); ++i) {
+    EXPECT_EQ(alone.textures[i].name, scene.textures[i].name);
+    EXPECT_EQ(alone.textures[i].texels, scene.textures[i].texels);
+  }
+}
 
 }  // namespace
 }  // namespace whit

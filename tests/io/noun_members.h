@@ -1,0 +1,33 @@
+// Compares members of cameras, lights and materials by their names in scene files.
+#pragma once
+
+#include "io/scene/scene_sections.h"
+#include "scene/members.h"
+#include "scene_files.h"
+
+namespace whit {
+
+// Expects members that are given as JSON. One number stands for all three of a color. Numbers may
+// be off by four roundings of float.
+template <typename Noun>
+void expectMembers(const Noun& noun, const std::string& members) {
+  Json wanted = Json::parse(asJson(members));
+  forEachMember<Noun>([&](const auto& member) {
+    if (!wanted.contains(member.name)) return;
+    const Json got = describe(noun.*member.field), right = wanted[member.name];
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      const Json& a = got.is_array() ? got[i] : got;
+      const Json& b = right.is_array() ? right.at(i) : right;
+      if (a.is_number()) {
+        const double x = b.get<double>(), rounding = std::max(1.0, std::abs(x)) / (1 << 23);
+        EXPECT_NEAR(a.get<double>(), x, 4 * rounding) << member.name;
+      } else {
+        EXPECT_EQ(a, b) << member.name;
+      }
+    }
+    wanted.erase(member.name);
+  });
+  EXPECT_TRUE(wanted.empty()) << wanted;
+}
+
+}  // namespace whit
