@@ -10,10 +10,10 @@ import json
 import math
 import pathlib
 import struct
-import subprocess
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+import turns
+
 JOINTS = 20
 
 
@@ -119,11 +119,8 @@ def main():
         for what, kind, scene in scenes:
             path = pathlib.Path(folder) / f"moving.{kind}"
             path.write_text(json.dumps(scene))
-            said = subprocess.run(
-                [ROOT / "build/whit", "render", path, "--frames", f"0..{options.frames - 1}",
-                 "--size", "480x300", "-o", pathlib.Path(folder) / "####.png", "--json", "-",
-                 "--quiet"], check=True, stdout=subprocess.PIPE, text=True).stdout
-            run = json.loads(said)
+            run = turns.run_whit("render", path, "--frames", f"0..{options.frames - 1}", "--size",
+                                 "480x300", "-o", pathlib.Path(folder) / "####.png")
             print(f"| {what} | {run['updateScene_ms']:.1f} | {run['frame_ms']['median']:.1f} |",
                   flush=True)
 

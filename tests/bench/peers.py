@@ -11,19 +11,17 @@ Tachyon is Debian's tachyon-bin-nox. tests/bench/spheres_povray.py measures POV-
 Needs build/whit, g++ and $WHIT_DATA; exits 77 where something is missing.
 """
 import argparse
-import json
 import math
 import os
 import pathlib
 import platform
 import re
 import shutil
-import statistics
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-WHIT = ROOT / "build/whit"
+from turns import ROOT, WHIT, take_turns, time_whit
+
 WORK = ROOT / "build/peers"
 MODEL = pathlib.Path(os.environ.get("WHIT_DATA", ROOT / "../shared/data")) / "crytek_sponza/sponza.obj"
 # As in scenes/sponza-mirror.json.
@@ -101,14 +99,6 @@ def time_tachyon(scene, job):
     return [1000 * float(re.search(r"Ray Tracing Time: *([0-9.]+) seconds", said).group(1))]
 
 
-def time_whit(options, job):
-    words = [WHIT, "bench", "sponza-mirror", "--size", f"{job.width}x{job.height}", "--depth", "0",
-             "--threads", str(job.threads), "--frames", str(FRAMES), "--json", "-", "--quiet",
-             *options]
-    run = json.loads(subprocess.run(words, check=True, text=True, capture_output=True).stdout)
-    return [run["runs"][0]["frame_ms"]["median"]]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--rounds", type=int, default=5)
@@ -127,18 +117,16 @@ def main():
     job.folder.mkdir(parents=True, exist_ok=True)
     ospray, tachyon = fetch_ospray(), WORK / "sponza.dat"
     write_tachyon_scene(tachyon, job)
+    whit = ["sponza-mirror", "--size", job.size, "--depth", "0", "--threads", str(job.threads),
+            "--frames", str(FRAMES)]
     takers = {
-        "whit, in gray": lambda: time_whit(["--disable", BARE], job),
-        "whit, with textures, masks and sky": lambda: time_whit([], job),
+        "whit, in gray": lambda: time_whit(*whit, "--disable", BARE),
+        "whit, with textures, masks and sky": lambda: time_whit(*whit),
         "OSPRay 3.2, scivis": lambda: time_ospray(ospray, "scivis", job),
         "OSPRay 3.2, pathtracer": lambda: time_ospray(ospray, "pathtracer", job),
         "Tachyon 0.99": lambda: time_tachyon(tachyon, job),
     }
-    times = {name: [] for name in takers}
-    for _ in range(job.rounds):
-        for name, take in takers.items():
-            times[name] += take()
-    medians = {name: statistics.median(taken) for name, taken in times.items()}
+    medians = take_turns(takers, job.rounds)
     own = medians["whit, in gray"]
     rows = [f"| {name} | {ms:.1f} | {ms / own:.2f} |" for name, ms in medians.items()]
     table = "\n".join([f"| {job.size}, {job.threads} threads | ms | times whit |", "|---|---:|---:|",

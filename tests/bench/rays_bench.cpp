@@ -11,9 +11,11 @@
 #include <cstdlib>
 #include <functional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "accel/embree_scene.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/worker_pool.h"
 #include "io/load_scene.h"
@@ -29,28 +31,24 @@ constexpr int kWidth = 16;
 constexpr unsigned kNone = RTC_INVALID_GEOMETRY_ID;
 
 struct Arrays {
-  std::vector<float> origins, directions;
+  std::vector<Vec3f> origins, directions;
   void add(const Vec3d& origin, const Vec3d& direction) {
-    for (int k = 0; k < 3; ++k) {
-      origins.push_back(static_cast<float>(origin[k]));
-      directions.push_back(static_cast<float>(direction[k]));
-    }
-  }
-  Vec3f origin(std::size_t i) const {
-    return {origins[3 * i], origins[3 * i + 1], origins[3 * i + 2]};
-  }
-  Vec3f direction(std::size_t i) const {
-    return {directions[3 * i], directions[3 * i + 1], directions[3 * i + 2]};
+    origins.emplace_back(origin);
+    directions.emplace_back(direction);
   }
 };
+
+// The numbers of vectors that lie one behind the other.
+std::span<const float> numbersOf(const std::vector<Vec3f>& vectors) {
+  return {&vectors[0].x, 3 * vectors.size()};
+}
 
 Arrays randomRays(const Vec3d& low, const Vec3d& size) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> way;
   Arrays rays;
-
-  for (std::size_t i = 0; i < kRays; ++i) {
+  while (rays.origins.size() < kRays) {
     const Vec3d at{share(random), share(random), share(random)};
     rays.add(low + size * at, {way(random), way(random), way(random)});
   }
@@ -59,9 +57,9 @@ Arrays randomRays(const Vec3d& low, const Vec3d& size) {
 
 Arrays lidarRays(const Vec3d& low, const Vec3d& size) {
   Arrays rays;
-  for (std::size_t i = 0; i < kRays; ++i) {
-    const double elevation = static_cast<double>(i / kSide) / kSide - 0.5;
-    const double azimuth = 6.283185307179586 * (static_cast<double>(i % kSide) + 0.3) / kSide;
+  for (const auto i : whit::indices(kRays)) {
+    const double elevation = double(i / kSide) / kSide - 0.5;
+    const double azimuth = 6.283185307179586 * (double(i % kSide) + 0.3) / kSide;
     rays.add(low + size * Vec3d{0.51, 0.31, 0.52},
              {std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
               std::cos(elevation) * std::sin(azimuth)});
@@ -74,7 +72,7 @@ std::vector<float> traceOneByOne(const whit::EmbreeScene& scene, const Arrays& r
   whit::parallelFor(threads, (kRays + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
     whit::QueryContext context(false);
     for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, kRays); ++i) {
-      const Vec3f o = rays.origin(i), d = rays.direction(i);
+      const Vec3f &o = rays.origins[i], &d = rays.directions[i];
       RTCRayHit hit{};
       hit.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, INFINITY, ~0u, 0, 0};
       hit.hit.geomID = hit.hit.instID[0] = kNone;
@@ -107,7 +105,7 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
         live[k] = first + k < (row + 1) * kSide ? -1 : 0;
         // Lanes beyond the row's end hold a ray, but are not live.
         const std::size_t i = std::min(first + k, kRays - 1);
-        const Vec3f o = rays.origin(i), d = rays.direction(i);
+        const Vec3f &o = rays.origins[i], &d = rays.directions[i];
         ray.org_x[k] = o.x;
         ray.org_y[k] = o.y;
         ray.org_z[k] = o.z;
@@ -130,7 +128,7 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
 }
 
 double medianOf(std::vector<double>& values) {
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  std::ranges::nth_element(values, values.begin() + std::ssize(values) / 2);
   return values[values.size() / 2];
 }
 
@@ -154,7 +152,7 @@ int main(int argc, char** argv) {
 
   for (const bool lidar : {false, true}) {
     const Arrays rays = lidar ? lidarRays(low, size) : randomRays(low, size);
-    const whit::api::Rays asked{{rays.origins, {}}, {rays.directions, {}}};
+    const whit::api::Rays asked{{numbersOf(rays.origins), {}}, {numbersOf(rays.directions), {}}};
     whit::api::RayHits hits = renderer.closest(asked);
     std::vector<float> t;
     std::vector<double> ours, ratios, occluded;
@@ -173,11 +171,11 @@ int main(int argc, char** argv) {
     // Rays that pass an edge within rounding are not certain. All others must have Embree's
     // distance.
     std::size_t apart = 0, open = 0;
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (const auto i : whit::indices(kRays)) {
       const bool isApart = std::isfinite(t[i]) != std::isfinite(hits.t[i]) ||
                            std::abs(double{t[i]} - hits.t[i]) > 1e-4 * hits.t[i];
-      if (hits.certain[i] == 0) ++open;
-      if (hits.certain[i] != 0 && isApart) ++apart;
+      open += hits.certain[i] == 0;
+      apart += hits.certain[i] != 0 && isApart;
     }
 
     std::printf(

@@ -13,13 +13,12 @@ import json
 import pathlib
 import re
 import shutil
-import statistics
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-WHIT = ROOT / "build/whit"
+from turns import WHIT, take_turns, time_whit
+
 DEPTH, CUTOFF, THREADS, SEGMENTS = 8, 0.001, 2, 192
 GLASS, AIR, MIRROR = "glass", "air", "mirror"
 # Center, radius, material.
@@ -78,16 +77,6 @@ def povray_scene(width, height):
     return "\n".join(lines) + "\n"
 
 
-def trace_whit(scene, size, picture):
-    words = [WHIT, "bench", scene, "--size", size, "--depth", str(DEPTH), "--cutoff", str(CUTOFF),
-             "--threads", str(THREADS), "--frames", "9", "--json", "-", "--quiet"]
-    answer = json.loads(subprocess.run(words, check=True, text=True, capture_output=True).stdout)
-    if picture:
-        subprocess.run([WHIT, "render", scene, "--size", size, "--depth", str(DEPTH), "-o", picture,
-                        "--quiet"], check=True, capture_output=True)
-    return answer["runs"][0]["frame_ms"]["median"]
-
-
 def trace_povray(scene, width, height, picture):
     words = ["povray", f"+I{scene}", f"+W{width}", f"+H{height}", f"+WT{THREADS}", "-D", "-A"]
     words += [f"+O{picture}"] if picture else ["-F"]
@@ -95,7 +84,7 @@ def trace_povray(scene, width, height, picture):
     found = re.search(r"Trace Time:.*\(([0-9.]+) seconds\)", said)
     if not found:
         sys.exit("POV-Ray says nothing of its time to trace:\n" + said)
-    return 1000 * float(found.group(1))
+    return [1000 * float(found.group(1))]
 
 
 def main():
@@ -109,26 +98,26 @@ def main():
         print("povray or build/whit is not there: nothing is compared", file=sys.stderr)
         return 77
     width, height = (int(side) for side in given.size.split("x"))
-    times = {"whit": [], f"whit, {SEGMENTS} segments": [], "POV-Ray": []}
+    options = ["--size", given.size, "--depth", str(DEPTH)]
+    timed = [*options, "--cutoff", str(CUTOFF), "--threads", str(THREADS), "--frames", "9"]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         exact, facets, pov = folder / "exact.json", folder / "facets.json", folder / "spheres.pov"
         exact.write_text(json.dumps(whit_scene(0)))
         facets.write_text(json.dumps(whit_scene(SEGMENTS)))
         pov.write_text(povray_scene(width, height))
-        for number in range(given.rounds):
-            pictures = given.pictures if number == 0 else None
-            times["whit"].append(
-                trace_whit(exact, given.size, pictures and pictures / "whit.png"))
-            times["POV-Ray"].append(
-                trace_povray(pov, width, height, pictures and pictures / "povray.png"))
-            times[f"whit, {SEGMENTS} segments"].append(trace_whit(facets, given.size, None))
+        if given.pictures:
+            subprocess.run([WHIT, "render", exact, *options, "-o", given.pictures / "whit.png",
+                            "--quiet"], check=True)
+            trace_povray(pov, width, height, given.pictures / "povray.png")
+        medians = take_turns({
+            "whit": lambda: time_whit(exact, *timed),
+            "POV-Ray": lambda: trace_povray(pov, width, height, None),
+            f"whit, {SEGMENTS} segments": lambda: time_whit(facets, *timed)}, given.rounds)
     if given.json:
-        given.json.write_text(json.dumps(times, indent=1) + "\n")
-    own = statistics.median(times["whit"])
-    for name, measured in times.items():
-        median = statistics.median(measured)
-        print(f"{name:20} {median:8.1f} ms  {median / own:6.2f}")
+        given.json.write_text(json.dumps(medians, indent=1) + "\n")
+    for name, median in medians.items():
+        print(f"{name:20} {median:8.1f} ms  {median / medians['whit']:6.2f}")
     return 0
 
 

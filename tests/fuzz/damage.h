@@ -23,7 +23,7 @@ inline std::vector<std::uint8_t> damaged(std::vector<std::uint8_t> bytes, std::u
     const bool inHeader = below(3) == 0;
     const std::size_t at =
         below(inHeader ? std::min<std::size_t>(bytes.size(), 256) : bytes.size());
-    bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1u << below(8));
+    bytes[at] = std::uint8_t(bytes[at] ^ 1u << below(8));
   }
   return bytes;
 }

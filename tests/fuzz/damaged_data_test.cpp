@@ -38,9 +38,8 @@ std::vector<fs::path> filesToDamage() {
   for (const char* kind : {".obj", ".mtl", ".gltf", ".glb", ".bin", ".ply", ".png", ".jpg", ".jpeg",
                            ".tga", ".hdr", ".exr"}) {
     std::vector<fs::path>& files = kinds[kind];
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-      return std::pair(fs::file_size(a), a) < std::pair(fs::file_size(b), b);
-    });
+    std::ranges::sort(files, {},
+                      [](const fs::path& file) { return std::pair(fs::file_size(file), file); });
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (i == 0 || fs::file_size(files[i]) <= most) chosen.push_back(files[i]);
     }
@@ -91,8 +90,7 @@ void tryVersionsOf(const fs::path& original, std::uint32_t versions) {
   for (std::uint32_t seed = 0; seed < versions; ++seed) {
     const std::vector<std::uint8_t> bytes = damaged(whole, seed);
     std::ofstream(folder / original.filename(), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
 
     const Outcome outcome =
         cli::runWhit({"info", scene, "--quiet", "--max-memory", "2"}, limitChild);

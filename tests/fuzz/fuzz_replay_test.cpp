@@ -31,7 +31,7 @@ TEST_P(Replay, DamagedFilesAreReadOrRefused) {
       SCOPED_TRACE(file.filename().string() + ", seed " + std::to_string(seed));
       EXPECT_NO_THROW(give(GetParam(), damaged(whole, seed)));
 
-      const auto middle = whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2);
+      const auto middle = whole.begin() + std::ssize(whole) / 2;
       std::vector<std::uint8_t> bytes(whole.begin(), middle);
       const std::vector<std::uint8_t> behind = damaged({middle, whole.end()}, seed);
       bytes.insert(bytes.end(), behind.begin(), behind.end());

@@ -21,9 +21,8 @@ namespace {
 constexpr int kLargestSide = 33;
 
 Vec3f pointIn(Draws& draws, double size) {
-  const auto coordinate = [&] { return static_cast<float>(draws.uniform(-size, size)); };
-  const float x = coordinate(), y = coordinate();
-  return {x, y, coordinate()};
+  const auto coordinate = [&] { return float(draws.uniform(-size, size)); };
+  return Vec3f{coordinate(), coordinate(), coordinate()};
 }
 
 Affine placement(Draws& draws) {
@@ -40,7 +39,7 @@ Affine placement(Draws& draws) {
 Vec3f anyNormal(Draws& draws) {
   constexpr double kLengths[] = {1, 1, 1e-20, 0, 3e-16, 1e10};
   const double length = kLengths[draws.below(std::size(kLengths))];
-  Vec3f normal = pointIn(draws, 1) * static_cast<float>(length);
+  Vec3f normal = pointIn(draws, 1) * float(length);
   if (draws.chance(0.2)) normal.x = 0;
   if (draws.chance(0.2)) normal.y = normal.z = 0;
   return normal;
@@ -49,23 +48,21 @@ Vec3f anyNormal(Draws& draws) {
 Vec2f anyUv(Draws& draws) {
   constexpr double kSizes[] = {1, 1, 0, 1e-20, 1e4, 1e30};
   const double size = kSizes[draws.below(std::size(kSizes))];
-  const auto u = static_cast<float>(draws.uniform(-size, size));
-  return {u, static_cast<float>(draws.uniform(-size, size))};
+  return {float(draws.uniform(-size, size)), float(draws.uniform(-size, size))};
 }
 
 Rgb anyColor(Draws& draws, double low, double high) {
-  const auto channel = [&] { return static_cast<float>(draws.number(low, high)); };
+  const auto channel = [&] { return float(draws.number(low, high)); };
   const float r = channel();
   if (draws.chance(0.5)) return Rgb(r);
-  const float g = channel();
-  return {r, g, channel()};
+  return Rgb{r, channel(), channel()};
 }
 
 Texture anyTexture(Draws& draws, TexelFormat format) {
   Texture texture;
   texture.format = format;
-  texture.width = 1 + static_cast<int>(draws.below(9));
-  texture.height = 1 + static_cast<int>(draws.below(9));
+  texture.width = 1 + int(draws.below(9));
+  texture.height = 1 + int(draws.below(9));
   texture.wrapU = static_cast<Wrap>(draws.below(3));
   texture.wrapV = static_cast<Wrap>(draws.below(3));
 
@@ -85,7 +82,7 @@ std::int32_t anyMap(Draws& draws, TextureUse use, std::vector<Texture>& textures
   if (!draws.chance(0.15)) return kNoTexture;
   const bool bright = use == TextureUse::emission && draws.chance(0.5);
   textures.push_back(anyTexture(draws, bright ? TexelFormat::radiance : formatOf(use)));
-  return static_cast<std::int32_t>(textures.size() - 1);
+  return int(textures.size() - 1);
 }
 
 // Draws as many numbers as the member of a camera may have.
@@ -103,8 +100,8 @@ std::vector<float> anyNumbers(Draws& draws, const Camera& camera, std::vector<fl
 
   std::vector<float> numbers;
   while (numbers.size() < count) {
-    numbers.push_back(static_cast<float>(draws.uniform(
-        std::max(low, field == &Camera::distortion ? -size : 1), std::min(high, size))));
+    numbers.push_back(float(draws.uniform(std::max(low, field == &Camera::distortion ? -size : 1),
+                                          std::min(high, size))));
   }
   return numbers;
 }
@@ -158,11 +155,10 @@ Mesh anyMesh(Draws& draws, std::size_t materials) {
   forEachCorner(0.3, [&] { mesh.colors.push_back(anyColor(draws, 0, 1)); });
 
   // Triangles may repeat corners and have no area.
-  const auto corner = [&] { return static_cast<std::uint32_t>(draws.below(corners)); };
+  const auto corner = [&] { return std::uint32_t(draws.below(corners)); };
   for (std::size_t i = 1 + draws.below(16); i > 0; --i) {
-    const std::uint32_t a = corner(), b = corner();
-    mesh.triangles.push_back({a, b, corner()});
-    mesh.materials.push_back(static_cast<std::uint32_t>(draws.below(materials)));
+    mesh.triangles.push_back({corner(), corner(), corner()});
+    mesh.materials.push_back(std::uint32_t(draws.below(materials)));
   }
   if (draws.chance(0.2)) mesh.spheres.push_back(placement(draws));
   return mesh;
@@ -175,8 +171,8 @@ Sky anySky(Draws& draws, SceneDescription& scene) {
     sky = studioSky();
   } else if (sky.kind == Sky::Kind::image) {
     EnvironmentImage& image = sky.image;
-    image.width = 1 + static_cast<int>(draws.below(9));
-    image.height = 1 + static_cast<int>(draws.below(9));
+    image.width = 1 + int(draws.below(9));
+    image.height = 1 + int(draws.below(9));
     for (int i = 0; i < image.width * image.height; ++i) {
       const Rgb color = anyColor(draws, 0, 100);
       image.r.push_back(color.x);
@@ -212,8 +208,8 @@ SceneDescription anyScene(Draws& draws) {
   scene.sky = anySky(draws, scene);
   drawMembers(draws, 0.5, scene, scene.ambient);
 
-  const auto objects = static_cast<std::uint32_t>(1 + draws.below(3));
-  for (std::uint32_t object = 0; object < objects; ++object) {
+  for (std::size_t objects = 1 + draws.below(3); objects > 0; --objects) {
+    const std::uint32_t object = size32(scene.objects);
     scene.objects.push_back({"object", {anyMesh(draws, scene.materials.size())}});
     for (std::size_t i = draws.chance(0.6) ? 1 : 2; i > 0; --i) {
       scene.instances.push_back({object, draws.chance(0.6) ? Affine() : placement(draws)});
@@ -251,13 +247,13 @@ bool isLeftAlone(std::string_view name) {
                                          "up",      "fov",     "ortho",           "crop", "threads",
                                          "simd",    "strict",  "sphere-segments", "mode", "packet",
                                          "disable", "channels"};
-  return std::ranges::find(kNames, name) != std::end(kNames);
+  return contains(kNames, name);
 }
 
 RenderOptions anyOptions(Draws& draws) {
   RenderOptions options;
-  const int width = 1 + static_cast<int>(draws.below(kLargestSide));
-  options.size = ImageSize{width, 1 + static_cast<int>(draws.below(kLargestSide))};
+  const auto side = [&] { return 1 + int(draws.below(kLargestSide)); };
+  options.size = ImageSize{side(), side()};
   options.threads = 1;
 
   const double changed = draws.chance(0.3) ? 0 : 0.25;
@@ -304,9 +300,9 @@ Draws::Draws(std::span<const std::uint8_t> bytes) : left_(bytes) {
 }
 
 std::uint32_t Draws::next() {
-  if (left_.size() <= 4) return static_cast<std::uint32_t>(random_());
+  if (left_.size() <= 4) return std::uint32_t(random_());
   std::uint32_t value = 0;
-  for (int i = 0; i < 4; ++i) value = value << 8 | left_[static_cast<std::size_t>(i)];
+  for (int i = 0; i < 4; ++i) value = value << 8 | left_[i];
   left_ = left_.subspan(4);
   return value;
 }
@@ -321,14 +317,11 @@ double Draws::number(double low, double high) {
   return uniform(std::max(low, -10.0), std::min(high, std::max(low, -10.0) + 20));
 }
 
-RandomPicture drawPicture(Draws& draws) {
-  SceneDescription scene = anyScene(draws);
-  return {std::move(scene), anyOptions(draws)};
-}
+RandomPicture drawPicture(Draws& draws) { return {anyScene(draws), anyOptions(draws)}; }
 
 std::array<std::uint8_t, 4> bytesOfPicture(std::uint32_t number) {
-  return {static_cast<std::uint8_t>(number >> 24), static_cast<std::uint8_t>(number >> 16),
-          static_cast<std::uint8_t>(number >> 8), static_cast<std::uint8_t>(number)};
+  const auto byte = [&](int i) { return std::uint8_t(number >> (24 - 8 * i)); };
+  return {byte(0), byte(1), byte(2), byte(3)};
 }
 
 bool renderPicture(std::span<const std::uint8_t> bytes, const std::string& simd,

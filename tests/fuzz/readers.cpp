@@ -1,7 +1,5 @@
 #include "fuzz/readers.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,6 +17,7 @@
 #include "io/image/texture_from_image.h"
 #include "io/load_scene.h"
 #include "io/obj/mtl_reader.h"
+#include "temporary_folder.h"
 #ifdef WHIT_SERVE
 #include "viewer/session/verbs.h"
 #endif
@@ -35,41 +34,35 @@ constexpr std::uint64_t kMemoryLimit = 64u << 20, kImageLimit = 8u << 20;
 // program ends.
 class WorkFolder {
  public:
-  WorkFolder() : path_(fs::temp_directory_path() / ("whit-fuzz-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-    ::setenv("WHIT_DATA", path_.c_str(), 1);  // files that a file names are searched here
-
-    const std::pair<const char*, const char*> beside[] = {{"png/rgb.png", "t.png"},
-                                                          {"hdr/flat.hdr", "t.hdr"},
-                                                          {"obj/triangle.obj", "t.obj"},
-                                                          {"mtl/plain.mtl", "t.mtl"},
-                                                          {"ply/ascii.ply", "t.ply"}};
-    for (const auto& [from, to] : beside) {
-      fs::copy_file(corpusFolder() / from, path_ / to, fs::copy_options::overwrite_existing);
+  WorkFolder() {
+    ::setenv("WHIT_DATA", folder_.path().c_str(), 1);  // files that a file names are searched here
+    for (const auto& [from, to] : {std::pair{"png/rgb.png", "t.png"},
+                                   {"hdr/flat.hdr", "t.hdr"},
+                                   {"obj/triangle.obj", "t.obj"},
+                                   {"mtl/plain.mtl", "t.mtl"},
+                                   {"ply/ascii.ply", "t.ply"}}) {
+      fs::copy_file(corpusFolder() / from, folder_ / to);
     }
   }
-  ~WorkFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
 
   fs::path save(std::span<const std::uint8_t> bytes, const std::string& extension) const {
-    const fs::path file = path_ / ("input" + extension);
+    const std::string file = folder_ / ("input" + extension);
     std::ofstream out(file, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::ptrdiff_t(bytes.size()));
+    if (!out.flush()) throw std::runtime_error("cannot write " + file);
     return file;
   }
 
  private:
-  fs::path path_;
+  TemporaryFolder folder_;
 };
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(std::string("the reader let through ") + what);
+}
+
+void requireNumbers(std::span<const float> numbers, const char* otherwise) {
+  for (const float x : numbers) require(std::isfinite(x), otherwise);
 }
 
 void checkScene(const Scene& scene) {
@@ -77,15 +70,15 @@ void checkScene(const Scene& scene) {
     for (const float x : triangle.position) {
       require(std::abs(x) <= kLargestCoordinate, "a corner that is not finite");
     }
-    for (const float x : triangle.uv) require(std::isfinite(x), "a coordinate that is no number");
+    requireNumbers(triangle.uv, "a coordinate that is no number");
     require(triangle.material < scene.materials.size(), "a material that is not there");
   }
 
   for (const NormalRecord& record : scene.normals) {
-    for (const float x : record.normal) require(std::isfinite(x), "a normal that is no number");
+    requireNumbers(record.normal, "a normal that is no number");
   }
   for (const UvRecord& record : scene.secondUvs) {
-    for (const float x : record.uv) require(std::isfinite(x), "a coordinate that is no number");
+    requireNumbers(record.uv, "a coordinate that is no number");
   }
 
   for (const Geometry& geometry : scene.geometries) {
@@ -99,10 +92,10 @@ void checkScene(const Scene& scene) {
     require(instance.geometry < scene.geometries.size(), "an instance of nothing");
   }
 
-  const std::int32_t textures = static_cast<std::int32_t>(scene.textures.size());
   for (const Material& m : scene.materials) {
     for (const std::int32_t map : m.maps()) {
-      require(map == kNoTexture || (map >= 0 && map < textures), "a texture that is not there");
+      require(map == kNoTexture || (map >= 0 && map < std::ssize(scene.textures)),
+              "a texture that is not there");
     }
   }
 
@@ -118,14 +111,15 @@ void readScene(const fs::path& file) {
   LoadOptions options;
   options.maxMemoryBytes = kMemoryLimit;
   options.threads = 1;
-  Warnings warnings;
-  const Scene scene = Scene::finalize(loadScene(file.string(), options, warnings), warnings);
-  checkScene(scene);
 
   // A scene that moves is also read at another time.
-  if (scene.animations.empty()) return;
-  options.instant.seconds = 0.5;
-  checkScene(Scene::finalize(loadScene(file.string(), options, warnings), warnings));
+  for (const double seconds : {0.0, 0.5}) {
+    if (seconds > 0) options.instant.seconds = seconds;
+    Warnings warnings;
+    const Scene scene = Scene::finalize(loadScene(file.string(), options, warnings), warnings);
+    checkScene(scene);
+    if (scene.animations.empty()) return;
+  }
 }
 
 // Reads all materials of the file and their textures, whatever their names are.
@@ -154,7 +148,7 @@ void readMaterials(const fs::path& file) {
   }
 
   textures.whenDone([&](SceneDescription& decoded) {
-    for (std::size_t i = 0; i < changes.size(); ++i) changes[i](decoded.materials[i]);
+    for (const auto i : indices(changes)) changes[i](decoded.materials[i]);
   });
   textures.finish(scene);
   for (const Texture& texture : scene.textures) checkTexture(texture);
@@ -261,10 +255,9 @@ const std::vector<Reader>& readers() {
 }
 
 const Reader& readerNamed(const std::string& name) {
-  for (const Reader& reader : readers()) {
-    if (reader.name == name) return reader;
-  }
-  throw std::logic_error("there is no reader " + name);
+  const auto found = std::ranges::find(readers(), name, &Reader::name);
+  if (found == readers().end()) throw std::logic_error("there is no reader " + name);
+  return *found;
 }
 
 Answer give(const Reader& reader, std::span<const std::uint8_t> bytes) {
@@ -285,7 +278,7 @@ fs::path corpusFolder() { return WHIT_FUZZ_CORPUS; }
 std::vector<fs::path> corpusOf(const Reader& reader) {
   const fs::directory_iterator folder(corpusFolder() / reader.name);
   std::vector<fs::path> files(fs::begin(folder), fs::end(folder));
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

@@ -1,6 +1,3 @@
-find_package(JPEG REQUIRED)
-find_package(OpenEXR 3.1 REQUIRED)
-find_package(ZLIB REQUIRED)
 # What is fuzzed, and what replays the corpus in every test run.
 add_library(whit_readers STATIC fuzz/readers.cpp)
 target_link_libraries(whit_readers PUBLIC whit_io)
@@ -21,14 +18,6 @@ target_link_libraries(whit_random_pictures PUBLIC whit_inspect whit_make)
 target_include_directories(whit_random_pictures PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 whit_tests(fuzz whit_readers whit_random_pictures)
 whit_runs_programs(fuzz whit)
-# `cmake --build BUILD --target make_corpus`, then BUILD/tests/make_corpus tests/fuzz/corpus
-add_executable(make_corpus EXCLUDE_FROM_ALL fuzz/make_corpus.cpp)
-target_link_libraries(make_corpus PRIVATE whit_io OpenEXR::OpenEXR JPEG::JPEG ZLIB::ZLIB
-                                          GTest::gtest)
-target_include_directories(make_corpus PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
-                                               ${CMAKE_CURRENT_SOURCE_DIR}/io)
-set_target_properties(make_corpus PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-
 # With WHIT_FUZZ: a libFuzzer program for each reader, all built by the target `fuzzers`. What they run
 # is instrumented; other programs of the build, which link the same objects, do without libFuzzer.
 if(WHIT_FUZZ)

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "library/whit.h"
+#include "oracle/bilinear.h"
 #include "oracle/chance.h"
 #include "oracle/random_parts.h"
 #include "oracle/tracer.h"
@@ -44,13 +45,6 @@ inline constexpr double kTableError = 0.005;
 // Enough wrong pixels of a picture: the rest of them are not looked at more closely.
 inline constexpr int kEnoughWrong = 30;
 
-struct Kind {
-  std::string name;
-  std::function<void(SceneMaker&)> make;
-  Options options{};
-  double rounding = 1;  // by how much more whit rounds than about the origin
-};
-
 // $WHIT_ORACLE_SCENES, if set, is how many scenes there are of each kind. Else sanitizers, which
 // watch the code and not the numbers, have a few.
 inline int scenesOfAKind(int usual) {
@@ -59,22 +53,63 @@ inline int scenesOfAKind(int usual) {
   return whit::kSanitized ? 2 : usual;
 }
 
-inline double differenceOf(const Color& a, const Color& b) {
-  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+inline double differenceOf(const Color& a, const Color& b) { return largest(magnitudes(a - b)); }
+
+// The pixel of a picture of whit's.
+inline Color colorOf(const whit::api::Image& image, std::size_t pixel) {
+  const auto rgb = image.rgb().subspan(3 * pixel);
+  return {rgb[0], rgb[1], rgb[2]};
 }
 
-// Of one scene in one mode.
+inline const std::map<Filter, const char*> kFilters{
+    {Filter::bilinear, "bilinear"}, {Filter::nearest, "nearest"}, {Filter::trilinear, "trilinear"}};
+
+// A picture of whit's, by exactly these options.
+inline whit::api::Image render(const Options& options, const std::string& file,
+                               const std::string& mode, std::optional<double> time = {}) {
+  whit::api::LoadOptions load;
+  load.moves = time.has_value();
+  const whit::api::Scene scene = whit::api::loadScene(file, load);
+  for (const std::string& warning : scene.warnings()) {
+    EXPECT_EQ(warning.find("material whose parts exceed 1"), 0u) << warning;
+  }
+  whit::api::Renderer renderer(scene);
+
+  // The blurred sky is no light transport but stands for it; its own tests have a closed form.
+  renderer.set("mode", mode).set("cutoff", "0").set("threads", "2").set("disable", "blurredSky");
+  const std::pair<const char*, double> numbers[] = {{"spp", options.spp},
+                                                    {"depth", options.depth},
+                                                    {"glossy", options.glossy},
+                                                    {"indirect", options.indirect},
+                                                    {"roulette", options.roulette},
+                                                    {"light-samples", options.lightSamples},
+                                                    {"ambient-samples", options.ambientSamples}};
+  for (const auto& [name, value] : numbers) {
+    char text[40];
+    std::snprintf(text, sizeof(text), "%g", value);
+    renderer.set(name, text);
+  }
+  renderer.set("terminator", options.terminator ? "on" : "off");
+  renderer.set("fresnel", options.schlickFresnel ? "schlick" : "exact");
+  renderer.set("texture-filter", kFilters.at(options.filter));
+
+  if (time) renderer.setTime(*time);
+  return renderer.render();
+}
+
+// What was compared in one mode.
 struct Tally {
-  int pixels = 0, leftOut = 0, wrong = 0;
-  double worst = 0;  // of those that are not left out
-  std::string firstWrong;
-  std::map<const Face*, Sum> sums;  // by what the pixels show
-  Sum sampled;                      // the pixels that have samples
+  std::string mode;
+  double tolerance = 0;
+  int pixels = 0, leftOut = 0;
+  double worst = 0;  // of the pixels that are not left out
+  Sum sampled{};     // the pixels that have samples
 };
 
-class Agreement : public testing::Test {
+// The test's scene is filled by the members of SceneMaker.
+class Agreement : public testing::Test, public SceneMaker {
  protected:
-  Agreement() {
+  Agreement() : SceneMaker(0) {
     std::string name = (std::filesystem::temp_directory_path() / "whit-oracle-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     folder_ = name;
@@ -83,102 +118,69 @@ class Agreement : public testing::Test {
     if (!HasFailure()) std::filesystem::remove_all(folder_);
   }
 
-  void expectAgreementWithEachFilter(const Kind& kind) {
-    for (const auto& [filter, name] : {std::pair{Filter::bilinear, "bilinear"},
-                                       {Filter::nearest, "nearest texels"},
-                                       {Filter::trilinear, "trilinear"}}) {
-      Kind filtered = kind;
-      filtered.name += std::string(", ") + name;
-      filtered.options.filter = filter;
-      expectAgreement(filtered);
+  void expectAgreementWithEachFilter(const std::string& name, const std::function<void()>& make) {
+    for (const auto& [filter, how] : kFilters) {
+      expectAgreement(name + ", " + how, {.filter = filter}, make);
     }
   }
 
-  void expectAgreement(const Kind& kind) {
-    Tally reference, packets;
+  void expectAgreement(const std::string& name, const std::function<void()>& make) {
+    expectAgreement(name, {}, make);
+  }
+  void expectAgreement(const std::string& name, const Options& options,
+                       const std::function<void()>& make, double rounding = 1) {
+    Tally reference{"reference", kReferenceTolerance * rounding},
+        packets{"packets", kPacketTolerance * rounding};
     const int scenes = scenesOfAKind(usualScenes_);
     for (int i = 0; i < scenes; ++i) {
-      SceneMaker maker(static_cast<std::uint32_t>(1000 + i));
-      kind.make(maker);
-      const std::string folder = folder_ + "/" + std::to_string(i);
-      std::filesystem::create_directory(folder);
-      const std::string file = writeScene(maker.scene, folder);
-      const Seen seen = look(maker.scene, kind.options);
-      compare(kind, seen, file, "reference", kReferenceTolerance, reference);
-      compare(kind, seen, file, "packets", kPacketTolerance, packets);
+      const std::string file = writeNew(1000 + i, make);
+      const Seen seen = look(scene, options);
+      for (Tally* tally : {&reference, &packets}) compare(seen, file, options, rounding, *tally);
     }
 
-    expectNoBias(reference.sampled, kind.name + ", reference");
-    expectNoBias(packets.sampled, kind.name + ", packets");
     std::printf("%s: %d scenes, %d pixels; reference %.1e off, %d left out; packets %.1e, %d\n",
-                kind.name.c_str(), scenes, packets.pixels, reference.worst, reference.leftOut,
+                name.c_str(), scenes, packets.pixels, reference.worst, reference.leftOut,
                 packets.worst, packets.leftOut);
-
-    const auto describeSum = [](const char* mode, const Sum& sum) {
-      if (sum.pixels() == 0) return;
+    for (const Tally& tally : {reference, packets}) {
+      const Sum& sum = tally.sampled;
+      expectNoBias(sum, name + ", " + tally.mode);
+      if (sum.pixels() == 0) continue;
       std::printf("  %d with samples, together: %s %.2f of what is allowed, which is %.1e\n",
-                  sum.pixels(), mode, sum.worst(), sum.largestTolerance());
-    };
-    describeSum("reference", reference.sampled);
-    describeSum("packets", packets.sampled);
+                  sum.pixels(), tally.mode.c_str(), sum.worst(), sum.largestTolerance());
+    }
   }
 
-  std::string folder_;    // kept if the test fails
+  // Makes the scene of this number, and returns its file.
+  std::string writeNew(int number, const std::function<void()>& make) {
+    static_cast<SceneMaker&>(*this) = SceneMaker(number);
+    make();
+    const std::string folder = folder_ + "/" + std::to_string(number);
+    std::filesystem::create_directory(folder);
+    return writeScene(scene, folder);
+  }
+
   int usualScenes_ = 10;  // of each kind
 
-  // A picture of whit's, by exactly these options.
-  static whit::api::Image render(const Options& options, const std::string& file,
-                                 const std::string& mode, std::optional<double> time = {}) {
-    whit::api::LoadOptions load;
-    load.moves = time.has_value();
-    const whit::api::Scene scene = whit::api::loadScene(file, load);
-    for (const std::string& warning : scene.warnings()) {
-      EXPECT_EQ(warning.find("material whose parts exceed 1"), 0u) << warning;
-    }
-    whit::api::Renderer renderer(scene);
-
-    // The blurred sky is no light transport but stands for it; its own tests have a closed form.
-    renderer.set("mode", mode).set("cutoff", "0").set("threads", "2").set("disable", "blurredSky");
-    renderer.set("spp", std::to_string(options.spp));
-    renderer.set("depth", std::to_string(options.depth));
-    renderer.set("glossy", std::to_string(options.glossy));
-    renderer.set("indirect", std::to_string(options.indirect));
-    renderer.set("roulette", std::to_string(options.roulette));
-    renderer.set("light-samples", std::to_string(options.lightSamples));
-    renderer.set("ambient-samples", std::to_string(options.ambientSamples));
-    renderer.set("terminator", options.terminator ? "on" : "off");
-    renderer.set("fresnel", options.schlickFresnel ? "schlick" : "exact");
-    renderer.set("texture-filter", nameOf(options.filter));
-
-    if (time) renderer.setTime(*time);
-    return renderer.render();
-  }
-
  private:
-  static std::string nameOf(Filter filter) {
-    if (filter == Filter::trilinear) return "trilinear";
-    return filter == Filter::nearest ? "nearest" : "bilinear";
-  }
+  std::string folder_;  // kept if the test fails
 
   // What the oracle sees of a scene.
   struct Seen {
-    Tracer tracer;
+    std::unique_ptr<Tracer> tracer;
     const Scene& scene;
     std::vector<Sight> sights;  // of the pixels' centers
     double mean = 0, brightest = 0;
   };
 
   static Seen look(const Scene& scene, const Options& options) {
-    Seen seen{Tracer(scene, options), scene, {}};
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        seen.sights.push_back(seen.tracer.look(x + 0.5, y + 0.5));
-        seen.mean += largest(seen.sights.back().radiance);
-        seen.brightest = std::max(seen.brightest, seen.sights.back().brightest);
-      }
-    }
+    Seen seen{makeTracer(scene, options), scene, {}};
+    forEachPixel(scene.width, scene.height, [&](int x, int y) {
+      const Sight& sight = seen.sights.emplace_back(seen.tracer->look(x + 0.5, y + 0.5));
+      seen.mean += largest(sight.radiance);
+      seen.brightest = std::max(seen.brightest, sight.brightest);
+    });
 
-    seen.mean /= static_cast<double>(seen.sights.size());
+    seen.mean /= double(seen.sights.size());
     return seen;
   }
 
@@ -195,58 +197,59 @@ class Agreement : public testing::Test {
     for (int i = 0; i < 8; ++i) {
       const double angle = (i + 0.5) * 0.785398163;
       const Sight other =
-          seen.tracer.look(x + 0.5 + beside * std::cos(angle), y + 0.5 + beside * std::sin(angle));
+          seen.tracer->look(x + 0.5 + beside * std::cos(angle), y + 0.5 + beside * std::sin(angle));
       if (isUndecided(seen, other, tolerance)) return true;
       if (differenceOf(other.radiance, center.radiance) > tolerance) return true;
     }
     return false;
   }
 
-  static void compare(const Kind& kind, const Seen& seen, const std::string& file,
-                      const std::string& mode, double tolerance, Tally& all) {
-    const whit::api::Image image = render(kind.options, file, mode);
+  static void compare(const Seen& seen, const std::string& file, const Options& options,
+                      double rounding, Tally& all) {
+    const whit::api::Image image = render(options, file, all.mode);
     const int width = seen.scene.width, height = seen.scene.height;
-    ASSERT_EQ(image.rgb().size(), static_cast<std::size_t>(3 * width * height));
+    ASSERT_EQ(image.rgb().size(), 3 * seen.sights.size());
 
-    Tally tally;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const auto i = static_cast<std::size_t>(y * width + x);
-        const Color got{image.rgb()[3 * i], image.rgb()[3 * i + 1], image.rgb()[3 * i + 2]};
-        const Sight& wanted = seen.sights[i];
-        const double unit = seen.mean + largest(wanted.radiance);
-        const double rounding = tolerance * kind.rounding * unit + kTableError * wanted.tabled;
-        const double off = differenceOf(got, wanted.radiance);
+    const std::string what = all.mode + " of " + file;
+    int leftOut = 0, wrong = 0;
+    double worst = 0;
+    std::string firstWrong;
+    std::map<const Face*, Sum> sums;  // by what the pixels show
 
-        ++tally.pixels;
-        if (off >
-            rounding + chance(largest(wanted.variance), largestSample(wanted, seen.brightest))) {
-          if (tally.wrong < kEnoughWrong &&
-              decidedByAnEdge(seen, x, y, wanted, kBeside * kind.rounding, 0.5 * rounding)) {
-            ++tally.leftOut;
-            continue;
-          }
-          if (tally.wrong++ == 0) tally.firstWrong = describe(x, y, got, wanted.radiance);
+    forEachPixel(width, height, [&](int x, int y) {
+      const std::size_t i = y * width + x;
+      const Color got = colorOf(image, i);
+      const Sight& wanted = seen.sights[i];
+      const double unit = seen.mean + largest(wanted.radiance);
+      const double allowed = all.tolerance * unit + kTableError * wanted.tabled;
+      const double noise =
+          oracle::chance(largest(wanted.variance), largestSample(wanted, seen.brightest));
+      const double off = differenceOf(got, wanted.radiance);
+
+      if (off > allowed + noise) {
+        if (wrong < kEnoughWrong &&
+            decidedByAnEdge(seen, x, y, wanted, kBeside * rounding, 0.5 * allowed)) {
+          ++leftOut;
+          return;
         }
-        tally.worst = std::max(tally.worst, off / unit);
-
-        // Where the oracle cannot tell, the noise of a pixel may hide what adds up over a face.
-        if (isUndecided(seen, wanted, 0.5 * rounding)) continue;
-        tally.sums[seen.tracer.nearest(x + 0.5, y + 0.5)].add(got, wanted, rounding,
-                                                              seen.brightest);
-        if (largest(wanted.variance) > 0) all.sampled.add(got, wanted, rounding, seen.brightest);
+        if (wrong++ == 0) firstWrong = describe(x, y, got, wanted.radiance);
       }
-    }
+      worst = std::max(worst, off / unit);
 
-    for (const auto& [face, sum] : tally.sums) expectNoBias(sum, mode + " of " + file);
-    EXPECT_EQ(tally.wrong, 0) << "of " << tally.pixels << " pixels of " << mode << " of " << file
-                              << ", the worst off by " << tally.worst << "; the first is "
-                              << tally.firstWrong;
-    EXPECT_LE(tally.leftOut, kLargestShareLeftOut * tally.pixels) << mode << " of " << file;
+      // Where the oracle cannot tell, the noise of a pixel may hide what adds up over a face.
+      if (isUndecided(seen, wanted, 0.5 * allowed)) return;
+      sums[seen.tracer->nearest(x + 0.5, y + 0.5)].add(got, wanted, allowed, seen.brightest);
+      if (largest(wanted.variance) > 0) all.sampled.add(got, wanted, allowed, seen.brightest);
+    });
 
-    all.pixels += tally.pixels;
-    all.leftOut += tally.leftOut;
-    all.worst = std::max(all.worst, tally.worst);
+    for (const auto& [face, sum] : sums) expectNoBias(sum, what);
+    EXPECT_EQ(wrong, 0) << "pixels of " << what << ", the worst off by " << worst
+                        << "; the first is " << firstWrong;
+    EXPECT_LE(leftOut, kLargestShareLeftOut * width * height) << what;
+
+    all.pixels += width * height;
+    all.leftOut += leftOut;
+    all.worst = std::max(all.worst, worst);
   }
 
   static void expectNoBias(const Sum& sum, const std::string& what) {

@@ -1,9 +1,17 @@
-// Lookups between the texels of an image.
+// The pixels of an image, and lookups between them.
 #pragma once
 
 #include "oracle/vector.h"
 
 namespace oracle {
+
+// Calls visit(x, y) for every pixel of a picture, row by row.
+template <typename Visit>
+void forEachPixel(int width, int height, const Visit& visit) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) visit(x, y);
+  }
+}
 
 inline Color mix(const Color& a, const Color& b, double t) { return a * (1 - t) + b * t; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 
 #include "oracle/sight.h"
 
@@ -40,21 +41,17 @@ class Sum {
 
   // In parts of what is allowed, of the worst channel.
   double worst() const {
-    const Color most = allowed();
     const auto part = [](double off, double of) { return of > 0 ? std::abs(off) / of : 0; };
-    return std::max({part(off_.x, most.x), part(off_.y, most.y), part(off_.z, most.z)});
+    return largest(eachOf(part, off_, allowed()));
   }
 
   // What is allowed, in parts of what is seen.
-  double largestTolerance() const {
-    const Color most = allowed();
-    return std::max({most.x / wanted_.x, most.y / wanted_.y, most.z / wanted_.z});
-  }
+  double largestTolerance() const { return largest(eachOf(std::divides(), allowed(), wanted_)); }
 
  private:
   Color allowed() const {
     const auto of = [&](double variance) { return rounding_ + chance(variance, largestSample_); };
-    return {of(variance_.x), of(variance_.y), of(variance_.z)};
+    return eachOf(of, variance_);
   }
 
   int pixels_ = 0;

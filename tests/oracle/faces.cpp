@@ -56,7 +56,7 @@ Triangle placedTriangle(const Mesh& mesh, const std::array<int, 3>& indices,
   Triangle triangle;
   triangle.smooth = !mesh.normals.empty();
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto index = static_cast<std::size_t>(indices[i]);
+    const int index = indices[i];
     Corner& corner = triangle.corners[i];
     corner.position = placed(mesh.positions[index], transforms);
     if (triangle.smooth) corner.normal = placedNormal(mesh.normals[index], transforms);

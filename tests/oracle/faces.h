@@ -12,12 +12,12 @@ namespace oracle {
 
 // What a triangle and a sphere have of the scene.
 struct Face {
-  int material = 0;
-  bool opaque = true, sheet = false;  // neither: a dielectric
-  int priority = 0;                   // of a dielectric
-  int order = 0;                      // in the file
-  int alphaMap = kNone, coverageMap = kNone;
-  double alphaCutoff = 0.5, coverage = 1;
+  const Material* material = nullptr;
+  int order = 0;  // in the file
+
+  bool isOpaque() const { return !material->passesLight(); }
+  // A face that is neither opaque nor a sheet bounds a dielectric.
+  bool isSheet() const { return material->passesLight() && !material->isDielectric(); }
 };
 
 struct Corner {

@@ -6,8 +6,8 @@ namespace {
 
 // Of values whose squares have this mean.
 Color varianceOf(const Color& meanSquare, const Color& mean) {
-  const Color variance = meanSquare - mean * mean;
-  return {std::max(0.0, variance.x), std::max(0.0, variance.y), std::max(0.0, variance.z)};
+  return eachOf([](double square, double m) { return std::max(0.0, square - m * m); }, meanSquare,
+                mean);
 }
 
 }  // namespace

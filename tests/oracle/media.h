@@ -14,10 +14,7 @@ struct Medium {
   Color absorption;
   int priority = 0;
 
-  bool operator==(const Medium& b) const {
-    return ior == b.ior && priority == b.priority && absorption.x == b.absorption.x &&
-           absorption.y == b.absorption.y && absorption.z == b.absorption.z;
-  }
+  bool operator==(const Medium&) const = default;
 };
 
 inline Medium mediumOf(const Material& m) { return {m.ior, m.absorption, m.priority}; }
@@ -28,14 +25,9 @@ class Media {
 
   // The one of this kind that was entered last; none if there is none.
   void leave(const Medium& medium) {
-    for (std::size_t i = inside_.size(); i-- > 0;) {
-      if (!(inside_[i] == medium)) continue;
-      inside_.erase(inside_.begin() + static_cast<std::ptrdiff_t>(i));
-      return;
-    }
+    const auto last = std::find(inside_.rbegin(), inside_.rend(), medium);
+    if (last != inside_.rend()) inside_.erase(std::next(last).base());
   }
-
-  bool empty() const { return inside_.empty(); }
 
   // The medium that counts: of the highest priority, among equals the one entered last; the
   // vacuum outside everything.

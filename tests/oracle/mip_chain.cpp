@@ -8,18 +8,21 @@ namespace oracle {
 
 namespace {
 
-// A part of a row or column of texels.
-struct Stretch {
-  double from = 0, to = 0;
+// How much of the texel lies between the ends of a stretch of its row or column.
+double coveredOf(int texel, double from, double to) {
+  return std::max(0.0, std::min(to, texel + 1.0) - std::max(from, double(texel)));
+}
 
-  double coveredOf(int texel) const {
-    return std::max(0.0, std::min(to, texel + 1.0) - std::max(from, double(texel)));
-  }
-};
-
-Stretch stretchOf(int i, int size, int half) {
-  const double each = double(size) / half;
-  return {i * each, (i + 1) * each};
+// Calls visit(index, area) for each texel of a picture of which a texel (x, y) of a smaller picture
+// covers an area, with the texel's index.
+template <typename Visit>
+void forEachCovered(int width, int height, int x, int y, int smallWidth, int smallHeight,
+                    const Visit& visit) {
+  const double each = double(width) / smallWidth, down = double(height) / smallHeight;
+  forEachPixel(width, height, [&](int column, int row) {
+    visit(row * width + column,
+          coveredOf(column, x * each, (x + 1) * each) * coveredOf(row, y * down, (y + 1) * down));
+  });
 }
 
 // whit keeps colors as the square root of light in 10 bits, data in 8.
@@ -31,7 +34,7 @@ Color asCodes(const Color& mean, bool isData) {
     const double code = rounded(std::sqrt(value) * 1023) / 1023;
     return code * code;
   };
-  return {channel(mean.x), channel(mean.y), channel(mean.z)};
+  return eachOf(channel, mean);
 }
 
 }  // namespace
@@ -40,20 +43,18 @@ Shares uncutShares(const Texture& alpha, double cutoff) {
   Shares shares{alpha.width, alpha.height, {}};
   const auto texel = [&](int x, int y) {
     const int place = wrapped(y, alpha.height) * alpha.width + wrapped(x, alpha.width);
-    return gray(alpha.texels[static_cast<std::size_t>(place)][0] / 255.0);
+    return gray(alpha.texels[place][0] / 255.0);
   };
 
-  for (int y = 0; y < alpha.height; ++y) {
-    for (int x = 0; x < alpha.width; ++x) {
-      double left = 0;
-      for (const double right : {0.25, 0.75}) {
-        for (const double down : {0.25, 0.75}) {
-          if (bilinear(x + right, y + down, texel).x >= cutoff) left += 0.25;
-        }
+  forEachPixel(alpha.width, alpha.height, [&](int x, int y) {
+    double left = 0;
+    for (const double right : {0.25, 0.75}) {
+      for (const double down : {0.25, 0.75}) {
+        if (bilinear(x + right, y + down, texel).x >= cutoff) left += 0.25;
       }
-      shares.of.push_back(left);
     }
-  }
+    shares.of.push_back(left);
+  });
 
   return shares;
 }
@@ -66,22 +67,14 @@ Shares coveredShares(const Texture& coverage) {
 
 Shares stretched(const Shares& shares, int width, int height) {
   Shares result{width, height, {}};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const Stretch columns = stretchOf(x, shares.width, width),
-                    rows = stretchOf(y, shares.height, height);
-      double sum = 0, area = 0;
-      for (int row = 0; row < shares.height; ++row) {
-        for (int column = 0; column < shares.width; ++column) {
-          const double covered = columns.coveredOf(column) * rows.coveredOf(row);
-          sum += shares.of[static_cast<std::size_t>(row * shares.width + column)] * covered;
-          area += covered;
-        }
-      }
-      result.of.push_back(sum / area);
-    }
-  }
-
+  forEachPixel(width, height, [&](int x, int y) {
+    double sum = 0, area = 0;
+    forEachCovered(shares.width, shares.height, x, y, width, height, [&](int texel, double part) {
+      sum += shares.of[texel] * part;
+      area += part;
+    });
+    result.of.push_back(sum / area);
+  });
   return result;
 }
 
@@ -107,45 +100,34 @@ MipChain::MipChain(const Texture& texture, Shares left) {
   for (std::size_t n = levels_.size() - 1; isCut && n-- > 1;) {
     Level& level = levels_[n];
     const Level& above = levels_[n + 1];
-    for (int y = 0; y < level.height; ++y) {
-      for (int x = 0; x < level.width; ++x) {
-        const auto place = static_cast<std::size_t>(y * level.width + x);
-        if (leftOf[n].of[place] > 0) continue;
-        level.texels[place] =
-            above.texel(std::min(x / 2, above.width - 1), std::min(y / 2, above.height - 1));
-      }
-    }
+    forEachPixel(level.width, level.height, [&](int x, int y) {
+      const int place = y * level.width + x;
+      if (leftOf[n].of[place] > 0) return;
+      level.texels[place] =
+          above.texel(std::min(x / 2, above.width - 1), std::min(y / 2, above.height - 1));
+    });
   }
 }
 
 // The mean of what a texel covers, also where that cuts through others.
 MipChain::Level MipChain::halved(const Level& level, const Shares& left, bool isData) {
   Level half{std::max(1, level.width / 2), std::max(1, level.height / 2), {}};
-  for (int y = 0; y < half.height; ++y) {
-    for (int x = 0; x < half.width; ++x) {
-      const Stretch columns = stretchOf(x, level.width, half.width),
-                    rows = stretchOf(y, level.height, half.height);
-
-      Color sum;
-      double area = 0;
-      for (int row = 0; row < level.height; ++row) {
-        for (int column = 0; column < level.width; ++column) {
-          double covered = columns.coveredOf(column) * rows.coveredOf(row);
-          if (!left.of.empty()) {
-            covered *= left.of[static_cast<std::size_t>(row * level.width + column)];
-          }
-          sum += level.texel(column, row) * covered;
-          area += covered;
-        }
-      }
-      half.texels.push_back(asCodes(area > 0 ? sum / area : Color{}, isData));
-    }
-  }
+  forEachPixel(half.width, half.height, [&](int x, int y) {
+    Color sum;
+    double area = 0;
+    forEachCovered(level.width, level.height, x, y, half.width, half.height,
+                   [&](int texel, double part) {
+                     if (!left.of.empty()) part *= left.of[texel];
+                     sum += level.texels[texel] * part;
+                     area += part;
+                   });
+    half.texels.push_back(asCodes(area > 0 ? sum / area : Color{}, isData));
+  });
   return half;
 }
 
 Color MipChain::Level::texel(int x, int y) const {
-  return texels[static_cast<std::size_t>(wrapped(y, height) * width + wrapped(x, width))];
+  return texels[wrapped(y, height) * width + wrapped(x, width)];
 }
 
 Color MipChain::Level::mixed(double u, double v) const {
@@ -153,7 +135,7 @@ Color MipChain::Level::mixed(double u, double v) const {
 }
 
 const MipChain::Level& MipChain::level(int number) const {
-  return levels_[std::min(static_cast<std::size_t>(number), levels_.size() - 1)];
+  return levels_[std::min<std::size_t>(number, levels_.size() - 1)];
 }
 
 Color MipChain::at(double u, double v, Filter filter, double texels) const {

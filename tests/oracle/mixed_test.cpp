@@ -47,234 +47,184 @@ double numberOf(const char* variable, double preset) {
   return asked == nullptr ? preset : std::max(1.0, std::atof(asked));
 }
 
-template <typename Value, std::size_t count>
-Value oneOf(SceneMaker& maker, const std::array<Value, count>& values) {
-  return values[static_cast<std::size_t>(maker.random.below(static_cast<int>(count)))];
-}
-
-Material sheet(SceneMaker& maker) {
-  Material material = maker.painted();
-  material.coverage = maker.random.between(0.2, 0.95);
-  if (maker.random.chance(0.5)) {
-    material.coverageMap = maker.addData(16, 8, {}, {255.99, 1, 1});
+class Mixed : public Agreement {
+ protected:
+  Material sheet() {
+    Material material = painted();
+    material.coverage = between(0.2, 0.95);
+    if (chance(0.5)) material.coverageMap = addMask();
+    material.castsShadow = material.coverage >= 0.5;
+    return material;
   }
 
-  material.castsShadow = material.coverage >= 0.5;
-  return material;
-}
-
-Material cutOut(SceneMaker& maker) {
-  Material material = maker.painted();
-  material.alphaMap = maker.addData(16, 8, {}, {255.99, 1, 1});
-  return material;
-}
-
-Material glassy(SceneMaker& maker) {
-  Material material = maker.glass(maker.random.between(1.2, 1.8));
-  material.thin = maker.random.chance(0.3);
-  if (maker.random.chance(0.3)) material.specular = maker.random.color(0.05, 0.3);
-  return material;
-}
-
-Material coated(SceneMaker& maker) {
-  Material material = maker.mirror();
-  if (maker.random.chance(0.4)) material.specular = maker.random.color(0.05, 0.4);
-  return material;
-}
-
-Material shining(SceneMaker& maker) {
-  Material material = maker.matte();
-  material.emission = maker.random.color(0.2, 2);
-  return material;
-}
-
-// Roughness is high, because few samples would see a narrow highlight.
-Material anyMaterial(SceneMaker& maker) {
-  Material (*const kinds[])(SceneMaker&) = {[](SceneMaker& m) { return m.matte(); },
-                                            [](SceneMaker& m) { return m.glossy(); },
-                                            [](SceneMaker& m) { return m.painted(); },
-                                            coated,
-                                            glassy,
-                                            sheet,
-                                            cutOut,
-                                            shining};
-
-  Material material = kinds[maker.random.below(8)](maker);
-  material.roughness = maker.random.between(0.4, 0.9);
-  if (maker.random.chance(0.3)) {
-    material.glossyReflection = maker.random.chance(0.5) ? Choice::yes : Choice::no;
+  Material cutOut() {
+    Material material = painted();
+    material.alphaMap = addMask();
+    return material;
   }
 
-  material.diffuseReflection = maker.random.chance(0.8);
-  material.frosted = material.transmits() && maker.random.chance(0.3);
-  return material;
-}
-
-// Returns an exact sphere, which transforms make an ellipsoid, a quad or a solid of triangles.
-int anyObject(SceneMaker& maker) {
-  const Material material = anyMaterial(maker);
-  switch (maker.random.below(5)) {
-    case 0:
-    case 1:
-      return maker.addSphere(maker.random.between(0.4, 0.6), material);
-    case 2:
-      return maker.addObject(pane(), material);
-    case 3:
-      return maker.addObject(tetrahedron(), material);
-    default:
-      return maker.addObject(box(), material);
+  Material glassy() {
+    Material material = glass(between(1.2, 1.8));
+    material.thin = chance(0.3);
+    if (chance(0.3)) material.specular = color(0.05, 0.3);
+    return material;
   }
-}
 
-Motion anyMotion(SceneMaker& maker, double reach, double turn) {
-  Motion motion;
-  motion.axis = maker.random.inBox({-1, 0.3, -1}, {1, 1, 1});
-  motion.inSteps = maker.random.chance(0.2);
-
-  for (int i = 0; i < 3; ++i) {
-    Motion::Key key;
-    key.time = i * 0.75;
-    key.degrees = maker.random.between(-turn, turn);
-    key.translate = maker.random.inBox(gray(-reach), gray(reach));
-    motion.keys.push_back(key);
+  Material polished() {
+    Material material = mirror();
+    if (chance(0.4)) material.specular = color(0.05, 0.4);
+    return material;
   }
-  return motion;
-}
 
-void addBodies(SceneMaker& maker) {
-  const int objects[] = {anyObject(maker), anyObject(maker), anyObject(maker), anyObject(maker)};
-
-  const int bodies = 5 + maker.random.below(4);
-  for (int i = 0; i < bodies; ++i) {
-    Transform transform = maker.standing(i % 5, 5);
-    if (i >= 5) transform.translate += {0, 0.6, -1.4};
-    transform.translate = asFloat(transform.translate);
-    if (maker.random.chance(0.4)) transform.scale = asFloat(transform.scale * gray(1.4));
-    if (maker.random.chance(0.3)) transform.scale.x = asFloat(-0.7 * transform.scale.x);
-
-    maker.place(objects[i % 4], transform);
-    if (maker.random.chance(0.25)) maker.scene.bodies.back().motion = anyMotion(maker, 0.2, 60);
+  Material shining() {
+    Material material = matte();
+    material.emission = color(0.2, 2);
+    return material;
   }
-}
 
-void addLights(SceneMaker& maker) {
-  const int lights = 1 + maker.random.below(3);
-  for (int i = 0; i < lights; ++i) {
-    Light light = maker.lamp();
-    light.kind = oneOf(maker, std::array{Light::Kind::point, Light::Kind::point, Light::Kind::spot,
-                                         Light::Kind::directional});
-    light.intensity = maker.random.color(8, 25);
-    light.radius = maker.random.between(0.05, 1.2);
+  // Roughness is high, because few samples would see a narrow highlight.
+  Material anyMaterial() {
+    using Kind = Material (Mixed::*)();
+    const Kind kind = oneOf<Kind>({&Mixed::matte, &Mixed::glossy, &Mixed::painted, &Mixed::polished,
+                                   &Mixed::glassy, &Mixed::sheet, &Mixed::cutOut, &Mixed::shining});
 
-    if (light.kind == Light::Kind::spot) {
-      light.direction = asFloat(maker.random.inBox({-1, 0, -1}, {1, 1, 1}) - light.position);
-      light.innerConeAngle = maker.random.between(0, 15);
-      light.outerConeAngle = maker.random.between(20, 50);
+    Material material = (this->*kind)();
+    material.roughness = between(0.4, 0.9);
+    if (chance(0.3)) material.glossyReflection = oneOf({Choice::no, Choice::yes});
+    material.diffuseReflection = chance(0.8);
+    material.frosted = material.transmits() && chance(0.3);
+    return material;
+  }
+
+  // Returns an exact sphere, which transforms make an ellipsoid, a quad or a solid of triangles.
+  int anyObject() {
+    const Material material = anyMaterial();
+    const int kind = below(5);
+    if (kind < 2) return addSphere(between(0.4, 0.6), material);
+    return addObject(kind == 2 ? pane() : kind == 3 ? tetrahedron() : box(), material);
+  }
+
+  Motion anyMotion(double reach, double turn) {
+    Motion motion;
+    motion.axis = inBox({-1, 0.3, -1}, {1, 1, 1});
+    motion.inSteps = chance(0.2);
+    for (int i = 0; i < 3; ++i) {
+      Motion::Key& key = motion.keys.emplace_back();
+      key.time = i * 0.75;
+      key.degrees = between(-turn, turn);
+      key.translate = inBox(gray(-reach), gray(reach));
     }
+    return motion;
+  }
 
-    if (light.kind == Light::Kind::directional) {
-      light.direction = maker.random.inBox({-1, -2, -1}, {1, -0.5, 0.2});
-      light.intensity = maker.random.color(0.5, 2);
+  void addBodies() {
+    const int objects[] = {anyObject(), anyObject(), anyObject(), anyObject()};
+
+    const int bodies = 5 + below(4);
+    for (int i = 0; i < bodies; ++i) {
+      Transform transform = standing(i % 5, 5);
+      if (i >= 5) transform.translate += {0, 0.6, -1.4};
+      transform.translate = asFloat(transform.translate);
+      if (chance(0.4)) transform.scale = asFloat(transform.scale * gray(1.4));
+      if (chance(0.3)) transform.scale.x = asFloat(-0.7 * transform.scale.x);
+
+      place(objects[i % 4], transform);
+      if (chance(0.25)) scene.bodies.back().motion = anyMotion(0.2, 60);
     }
-
-    if (maker.random.chance(0.25)) light.motion = anyMotion(maker, 0.3, 10);
-    maker.scene.lights.push_back(light);
   }
-}
 
-void setSky(SceneMaker& maker) {
-  Sky& sky = maker.scene.sky;
-  sky.scale = maker.random.between(0.2, 1.2);
-  if (maker.random.chance(0.2)) {
-    sky.kind = Sky::Kind::image;
-    sky.width = 7;
-    sky.height = 4;
-    sky.rotation = maker.random.between(-180, 360);
-    for (int i = 0; i < sky.width * sky.height; ++i) {
-      const Color c = maker.random.color(20, 255);
-      sky.texels.push_back(Color{std::floor(c.x), std::floor(c.y), std::floor(c.z)} / 256);
+  void addLights() {
+    const int lights = 1 + below(3);
+    for (int i = 0; i < lights; ++i) {
+      const int kind = below(4);
+      if (kind == 3) addSun(0.5, 2);
+      Light& light = kind == 3 ? scene.lights.back() : addLamp();
+      light.radius = between(0.05, 1.2);
+      if (kind == 2) makeSpot(light);
+      if (chance(0.25)) light.motion = anyMotion(0.3, 10);
     }
-  } else if (maker.random.chance(0.5)) {
-    maker.scene.ambient.fromSky = maker.random.between(0.2, 0.8);
   }
 
-  if (maker.random.chance(0.6)) maker.scene.ambient.occlusion = maker.random.between(0.3, 3);
-}
-
-void setCamera(SceneMaker& maker) {
-  Camera& camera = maker.scene.camera;
-  camera.fov = maker.random.between(25, 42);
-  if (maker.random.chance(0.15)) camera.orthographicHeight = maker.random.between(2.5, 4);
-  if (maker.random.chance(0.6)) camera.aperture = maker.random.between(0.05, 0.4);
-  if (maker.random.chance(0.5)) camera.focus = maker.random.between(3, 8);
-  if (maker.random.chance(0.15)) camera.motion = anyMotion(maker, 0.2, 3);
-}
-
-void mixedScene(SceneMaker& maker) {
-  maker.room();
-  maker.scene.width = kWidth;
-  maker.scene.height = kHeight;
-  maker.scene.time = maker.random.between(-0.2, 1.7);
-
-  setSky(maker);
-  setCamera(maker);
-  addBodies(maker);
-
-  if (maker.random.chance(0.25)) {  // the scene is closed and shows no sky
-    const int shell = maker.addSphere(12, anyMaterial(maker));
-    maker.place(shell, maker.random.placement({0, 1, 0}, 1));
+  void setSky() {
+    if (chance(0.2)) {
+      skyImage(20, 255);
+    } else if (chance(0.5)) {
+      scene.ambient.fromSky = between(0.2, 0.8);
+    }
+    scene.sky.scale = between(0.2, 1.2);
+    if (chance(0.6)) scene.ambient.occlusion = between(0.3, 3);
   }
 
-  maker.floor(anyMaterial(maker));
-  maker.scene.bodies.back().transform.translate.y = 0.05;
-  addLights(maker);
-}
+  void setCamera() {
+    Camera& camera = scene.camera;
+    camera.fov = between(25, 42);
+    if (chance(0.15)) camera.orthographicHeight = between(2.5, 4);
+    if (chance(0.6)) camera.aperture = between(0.05, 0.4);
+    if (chance(0.5)) camera.focus = between(3, 8);
+    if (chance(0.15)) camera.motion = anyMotion(0.2, 3);
+  }
 
-Options mixedOptions(SceneMaker& maker) {
-  Options options;
-  options.depth = 1 + maker.random.below(4);
-  options.glossy = oneOf(maker, std::array{0, 1, 2, 3});
-  options.indirect = oneOf(maker, std::array{0, 0, 1, 2});
-  options.lightSamples = oneOf(maker, std::array{1, 2, 4});
-  options.ambientSamples = oneOf(maker, std::array{0, 1, 3});
-  options.roulette = oneOf(maker, std::array{0.0, 0.0, 0.3});
-  options.filter = maker.random.chance(0.3) ? Filter::nearest : Filter::bilinear;
-  options.schlickFresnel = maker.random.chance(0.25);
-  options.spp = kSpp * static_cast<int>(numberOf("WHIT_ORACLE_SAMPLES", 1));
-  return options;
-}
+  void mixedScene() {
+    room();
+    scene.width = kWidth;
+    scene.height = kHeight;
+    scene.time = between(-0.2, 1.7);
+
+    setSky();
+    setCamera();
+    addBodies();
+
+    // The scene is closed and shows no sky.
+    if (chance(0.25)) place(addSphere(12, anyMaterial()), placement({0, 1, 0}, 1));
+
+    floor(anyMaterial(), 0.05);
+    addLights();
+  }
+
+  Options mixedOptions() {
+    Options options;
+    options.depth = 1 + below(4);
+    options.glossy = below(4);
+    options.indirect = oneOf({0, 0, 1, 2});
+    options.lightSamples = oneOf({1, 2, 4});
+    options.ambientSamples = oneOf({0, 1, 3});
+    options.roulette = oneOf({0.0, 0.0, 0.3});
+    options.filter = chance(0.3) ? Filter::nearest : Filter::bilinear;
+    options.schlickFresnel = chance(0.25);
+    options.spp = kSpp * static_cast<int>(numberOf("WHIT_ORACLE_SAMPLES", 1));
+    return options;
+  }
+};
 
 bool moves(const Scene& scene) {
-  const auto any = [](const auto& things) {
-    for (const auto& thing : things) {
-      if (!thing.motion.keys.empty()) return true;
-    }
-    return false;
-  };
-  return any(scene.bodies) || any(scene.lights) || !scene.camera.motion.keys.empty();
+  const auto isMoved = [](const auto& thing) { return !thing.motion.keys.empty(); };
+  return std::ranges::any_of(scene.bodies, isMoved) || std::ranges::any_of(scene.lights, isMoved) ||
+         isMoved(scene.camera);
 }
 
 // Names the groups in which a scene is counted.
 std::vector<std::string> effectsOf(const Scene& scene, const Options& options) {
-  std::vector<std::string> effects{"all scenes"};
-  const auto add = [&](bool is, const char* name) {
-    if (is) effects.emplace_back(name);
-  };
-
   const bool occluded = scene.ambient.occlusion > 0 && options.ambientSamples > 0;
-  add(options.indirect > 0, "indirect light");
-  add(options.indirect == 0 && occluded, "ambient occlusion");
-  add(options.indirect == 0 && !occluded, "plain ambient light");
-  add(options.lightSamples > 1, "soft lights");
-  add(options.glossy > 0, "sampled lobes");
-  add(options.indirect > 0 && options.glossy > 0, "indirect light and sampled lobes");
-  add(options.roulette > 0, "roulette");
-  add(scene.camera.aperture > 0, "lens");
-  add(scene.camera.orthographicHeight > 0, "parallel rays");
-  add(moves(scene), "motion");
-  add(std::any_of(scene.lights.begin(), scene.lights.end(),
-                  [](const Light& light) { return light.kind == Light::Kind::spot; }),
-      "spot lights");
+  const bool isDirect = options.indirect == 0;
+  const auto isSpot = [](const Light& light) { return light.kind == Light::Kind::spot; };
+  const std::pair<const char*, bool> all[] = {
+      {"all scenes", true},
+      {"indirect light", !isDirect},
+      {"ambient occlusion", isDirect && occluded},
+      {"plain ambient light", isDirect && !occluded},
+      {"soft lights", options.lightSamples > 1},
+      {"sampled lobes", options.glossy > 0},
+      {"indirect light and sampled lobes", !isDirect && options.glossy > 0},
+      {"roulette", options.roulette > 0},
+      {"lens", scene.camera.aperture > 0},
+      {"parallel rays", scene.camera.orthographicHeight > 0},
+      {"motion", moves(scene)},
+      {"spot lights", std::ranges::any_of(scene.lights, isSpot)}};
+
+  std::vector<std::string> effects;
+  for (const auto& [name, has] : all) {
+    if (has) effects.emplace_back(name);
+  }
   return effects;
 }
 
@@ -303,39 +253,39 @@ class Comparison {
   explicit Comparison(std::string mode) : mode_(std::move(mode)) {}
 
   void add(const Scene& scene, const Options& options, const std::vector<Color>& wanted,
-           const whit::api::Image& image, const std::string& file) {
+           const std::string& file, const std::optional<double>& time) {
+    const whit::api::Image image = render(options, file, mode_, time);
     std::array<Paired, kWidth / kBlock*(kHeight / kBlock)> blocks;
     Paired picture;
     std::array<Paired, 2> halves;  // every other pixel
     double mean = 0;
 
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const Color got{image.rgb()[3 * i], image.rgb()[3 * i + 1], image.rgb()[3 * i + 2]};
+      const Color got = colorOf(image, i), off = got - wanted[i];
       const std::size_t x = i % kWidth, y = i / kWidth;
-      blocks[y / kBlock * (kWidth / kBlock) + x / kBlock].add(got - wanted[i]);
-      picture.add(got - wanted[i]);
-      halves[(x + y) % 2].add(got - wanted[i]);
-      mean += dot(got + wanted[i], gray(1.0 / 6)) / static_cast<double>(wanted.size());
+      blocks[y / kBlock * (kWidth / kBlock) + x / kBlock].add(off);
+      picture.add(off);
+      halves[(x + y) % 2].add(off);
+      mean += dot(got + wanted[i], gray(1.0 / 6)) / double(wanted.size());
     }
 
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const Color t = standardErrors(blocks[i].mean(), blocks[i].variance(), kRounding * mean);
-      const double most = largestOf(t);
+      const double most = largest(magnitudes(t));
       EXPECT_LE(most, kLargestOfBlocks)
           << "standard errors: block " << i << " of " << mode_ << " of " << file;
       largest_ = std::max(largest_, most);
       for (const double channel : {t.x, t.y, t.z}) {
         ++numbers_;
-
         squares_ += channel * channel;
-        if (std::abs(channel) > kManyErrors) ++many_;
+        many_ += std::abs(channel) > kManyErrors;
       }
     }
 
     const Color t = standardErrors(picture.mean(), picture.variance(), kRounding * mean);
-    EXPECT_LE(largestOf(t), kLargestOfPictures)
+    EXPECT_LE(largest(magnitudes(t)), kLargestOfPictures)
         << "standard errors: the picture of " << mode_ << " of " << file;
-    largestOfPictures_ = std::max(largestOfPictures_, largestOf(t));
+    largestOfPictures_ = std::max(largestOfPictures_, largest(magnitudes(t)));
     for (const std::string& effect : effectsOf(scene, options)) {
       effects_[effect].add(halves, mean);
     }
@@ -358,13 +308,13 @@ class Comparison {
 
     for (const auto& [name, all] : effects_) {
       const Color t = standardErrors(all.off, all.variance, kRounding * all.weights);
-      EXPECT_LE(largestOf(t), kLargestOfEffects)
+      EXPECT_LE(largest(magnitudes(t)), kLargestOfEffects)
           << "standard errors: scenes of " << mode_ << " with " << name;
 
       const Color off = all.off * (100 / all.weights);
       const double error = 100 * std::sqrt(largest(all.variance)) / all.weights;
       std::printf("  %s: %d scenes, %+.3f %+.3f %+.3f %% off, standard error %.3f %%, t %.2f\n",
-                  name.c_str(), all.scenes, off.x, off.y, off.z, error, largestOf(t));
+                  name.c_str(), all.scenes, off.x, off.y, off.z, error, largest(magnitudes(t)));
     }
   }
 
@@ -375,39 +325,30 @@ class Comparison {
   std::map<std::string, Together> effects_;
 };
 
-class Mixed : public Agreement {};
-
 TEST_F(Mixed, MeansOfAllEffectsTogether) {
   const int scenes =
       static_cast<int>(numberOf("WHIT_ORACLE_SCENES", whit::kSanitized ? 20 : kScenes));
   const int drawn = kDrawn * static_cast<int>(numberOf("WHIT_ORACLE_SAMPLES", 1));
   Comparison packets("packets"), reference("reference");
   for (int i = 0; i < scenes; ++i) {
-    SceneMaker maker(static_cast<std::uint32_t>(5000 + i));
-    mixedScene(maker);
-
-    const Scene& scene = maker.scene;
-    const Options options = mixedOptions(maker);
-    const std::string folder = folder_ + "/" + std::to_string(i);
-    std::filesystem::create_directory(folder);
-    const std::string file = writeScene(scene, folder);
+    const std::string file = writeNew(5000 + i, [&] { mixedScene(); });
+    const Options options = mixedOptions();
 
     // The mean of what the oracle draws for each pixel.
-    const Tracer tracer(scene, options);
-    Random random(static_cast<std::uint32_t>(90000 + i));
+    const std::unique_ptr<Tracer> tracer = makeTracer(scene, options);
+    Random random(90000 + i);
     std::vector<Color> wanted;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        Color sum;
-        for (int k = 0; k < drawn; ++k) sum += tracer.sample(x, y, random);
-        wanted.push_back(sum / drawn);
-      }
-    }
+    forEachPixel(kWidth, kHeight, [&](int x, int y) {
+      Color sum;
+      for (int k = 0; k < drawn; ++k) sum += tracer->sample(x, y, random);
+      wanted.push_back(sum / drawn);
+    });
 
     const auto time = moves(scene) ? std::optional(scene.time) : std::nullopt;
-    packets.add(scene, options, wanted, render(options, file, "packets", time), file);
-    if (i % kScenesPerReference != 0) continue;
-    reference.add(scene, options, wanted, render(options, file, "reference", time), file);
+    for (Comparison* comparison : {&packets, &reference}) {
+      if (comparison == &reference && i % kScenesPerReference != 0) continue;
+      comparison->add(scene, options, wanted, file, time);
+    }
   }
 
   packets.conclude();

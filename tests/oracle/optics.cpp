@@ -12,6 +12,19 @@ constexpr double kPi = std::numbers::pi;
 
 double clamped(double value) { return std::clamp(value, 0.0, 1.0); }
 
+// Two unit vectors that are perpendicular to the normal and to each other.
+std::array<Vec, 2> acrossTo(const Vec& normal) {
+  const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
+  const Vec x = normalized(cross(other, normal));
+  return {x, cross(normal, x)};
+}
+
+// The unit vector that is perpendicular to the normal and turned by this angle about it.
+Vec aboutAxis(const Vec& normal, double turn) {
+  const auto [x, y] = acrossTo(normal);
+  return x * std::cos(turn) + y * std::sin(turn);
+}
+
 // Between the cones as glTF's KHR_lights_punctual has it.
 double spotFalloff(const Light& light, const Vec& toLight) {
   const double cosine = -dot(normalized(light.direction), toLight);
@@ -67,6 +80,11 @@ double smithLambda(const Material& material, double cosine) {
   return (std::sqrt(1 + squaredAlpha(material) * tangent2) - 1) / 2;
 }
 
+// The share of facets that neither direction is masked from.
+double masking(const Material& material, double nl, double nv) {
+  return 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
+}
+
 }  // namespace
 
 double facetsFacing(const Material& material, double nh) {
@@ -81,8 +99,7 @@ double shareSeen(const Material& material, double nv) {
 Vec facetSeen(const Material& material, const Vec& normal, const Vec& toViewer, double u,
               double v) {
   const double alpha = std::sqrt(squaredAlpha(material));
-  const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
-  const Vec x = normalized(cross(other, normal)), y = cross(normal, x);
+  const auto [x, y] = acrossTo(normal);
 
   // Where the facets make a hemisphere: a point of the disk that the view sees of it.
   const Vec view =
@@ -118,8 +135,7 @@ double facetLobe(const Material& material, const Vec& normal, const Vec& toViewe
                  const Vec& toLight) {
   const Vec half = normalized(toViewer + toLight);
   const double nl = dot(normal, toLight), nv = dot(normal, toViewer), nh = dot(normal, half);
-  const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
-  return facetsFacing(material, nh) * masking / (4 * nl * nv);
+  return facetsFacing(material, nh) * masking(material, nl, nv) / (4 * nl * nv);
 }
 
 namespace {
@@ -173,8 +189,7 @@ Color lobeAlbedo(const Material& material, double nv) {
       const double vh = aside * std::cos(widest * (k + 0.5) / kTurns) + nv * nh;
       const double nl = 2 * vh * nh - nv;
       if (!(vh > 0 && nl > 0)) continue;
-      const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
-      const double weight = density * widest / kPi * vh / (nv * nh) * masking;
+      const double weight = density * widest / kPi * vh / (nv * nh) * masking(material, nl, nv);
       sum += lobeReflectance(material, vh) * weight;
     }
   }
@@ -210,12 +225,8 @@ LightSphere::LightSphere(const Light& light, const Vec& point) : light_(light) {
 }
 
 LightSphere::Part LightSphere::partAt(double u, double v) const {
-  const Vec other = std::abs(axis_.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
-  const Vec x = normalized(cross(other, axis_)), y = cross(axis_, x);
-
-  const double angle = widest_ * u, turn = 2 * kPi * v, radius = light_.radius;
-  const Vec aside = x * std::cos(turn) + y * std::sin(turn);
-  const Vec toLight = axis_ * std::cos(angle) + aside * std::sin(angle);
+  const double angle = widest_ * u, radius = light_.radius;
+  const Vec toLight = axis_ * std::cos(angle) + aboutAxis(axis_, 2 * kPi * v) * std::sin(angle);
 
   const double beside = distance_ * std::sin(angle);  // of the way, at the sphere's center
   const double inside = std::sqrt(std::max(0.0, radius * radius - beside * beside));
@@ -253,12 +264,11 @@ Color skyAlong(const Sky& sky, const Vec& direction) {
   // about +y, right-handed, shows towards -x what it has at -z.
   const double angle = std::atan2(direction.x, -direction.z) / (2 * kPi) + sky.rotation / 360;
   const double polar = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
-  return bilinear(
-             angle * sky.width, polar * sky.height,
-             [&](int x, int y) {
-               const int row = std::clamp(y, 0, sky.height - 1);
-               return sky.texels[static_cast<std::size_t>(row * sky.width + wrapped(x, sky.width))];
-             }) *
+  return bilinear(angle * sky.width, polar * sky.height,
+                  [&](int x, int y) {
+                    const int row = std::clamp(y, 0, sky.height - 1);
+                    return sky.texels[row * sky.width + wrapped(x, sky.width)];
+                  }) *
          sky.scale;
 }
 
@@ -275,15 +285,12 @@ Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal) {
 }
 
 Vec cosineDirection(const Vec& normal, double u, double v) {
-  const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
-  const Vec x = normalized(cross(other, normal)), y = cross(normal, x);
-  const double turn = 2 * kPi * v;
-  return (x * std::cos(turn) + y * std::sin(turn)) * std::sqrt(u) + normal * std::sqrt(1 - u);
+  return aboutAxis(normal, 2 * kPi * v) * std::sqrt(u) + normal * std::sqrt(1 - u);
 }
 
 Color transmittance(const Color& absorption, double distance) {
   const auto channel = [&](double sigma) { return sigma > 0 ? std::exp(-sigma * distance) : 1.0; };
-  return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};
+  return eachOf(channel, absorption);
 }
 
 }  // namespace oracle

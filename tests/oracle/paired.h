@@ -23,7 +23,7 @@ class Paired {
     const auto of = [&](double sum, double squares) {
       return std::max(0.0, squares / count_ - sum / count_ * (sum / count_)) / (count_ - 1);
     };
-    return {of(sum_.x, squares_.x), of(sum_.y, squares_.y), of(sum_.z, squares_.z)};
+    return eachOf(of, sum_, squares_);
   }
 
  private:
@@ -34,11 +34,7 @@ class Paired {
 // The mean in standard errors, to which `rounding` adds.
 inline Color standardErrors(const Color& mean, const Color& variance, double rounding) {
   const auto of = [&](double m, double v) { return m / std::sqrt(v + rounding * rounding); };
-  return {of(mean.x, variance.x), of(mean.y, variance.y), of(mean.z, variance.z)};
-}
-
-inline double largestOf(const Color& a) {
-  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  return eachOf(of, mean, variance);
 }
 
 }  // namespace oracle

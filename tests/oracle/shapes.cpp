@@ -36,6 +36,16 @@ Mesh pane() {
   return mesh;
 }
 
+Mesh turnedPane(double repeats) {
+  Mesh mesh = pane();
+  for (auto& [u, v] : mesh.uvs) {
+    const double across = u, up = v;
+    u = asFloat(repeats * (1.7 * across + 0.6 * up - 0.9));
+    v = asFloat(repeats * (1.2 * up - 0.5 * across - 0.3));
+  }
+  return mesh;
+}
+
 Mesh ball(int segments, int rings) {
   Mesh mesh;
   const auto add = [&](double polar, double turn) {

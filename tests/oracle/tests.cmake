@@ -1,8 +1,7 @@
 # The oracle sees none of whit: it is given the flags of its sources and not their folders.
-add_library(whit_oracle STATIC oracle/faces.cpp oracle/geometry.cpp oracle/integral.cpp
-                               oracle/mip_chain.cpp oracle/optics.cpp oracle/placement.cpp
-                               oracle/random_parts.cpp oracle/shapes.cpp oracle/tracer.cpp
-                               oracle/write_scene.cpp)
+add_library(whit_oracle STATIC oracle/faces.cpp oracle/integral.cpp oracle/mip_chain.cpp
+                               oracle/optics.cpp oracle/placement.cpp oracle/shapes.cpp
+                               oracle/tracer.cpp oracle/write_scene.cpp)
 target_compile_options(whit_oracle PRIVATE $<TARGET_PROPERTY:whit_flags,INTERFACE_COMPILE_OPTIONS>)
 # Sanitizers watch whit. The oracle, which is slow, would take most of their time.
 if(WHIT_SANITIZE)

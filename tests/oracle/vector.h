@@ -8,6 +8,7 @@ namespace oracle {
 
 struct Vec {
   double x = 0, y = 0, z = 0;
+  bool operator==(const Vec&) const = default;
 };
 using Color = Vec;
 
@@ -26,6 +27,12 @@ inline Vec cross(const Vec& a, const Vec& b) {
 inline double length(const Vec& a) { return std::sqrt(dot(a, a)); }
 inline Vec normalized(const Vec& a) { return a / length(a); }
 inline double largest(const Vec& a) { return std::max({a.x, a.y, a.z}); }
+inline Vec magnitudes(const Vec& a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
+// f(x...), f(y...), f(z...): the same of each component.
+template <typename Function, typename... Vectors>
+Vec eachOf(const Function& f, const Vectors&... v) {
+  return {f(v.x...), f(v.y...), f(v.z...)};
+}
 inline Color gray(double value) { return {value, value, value}; }
 
 // What a file of floats makes of it: both sides then have the same number.

@@ -1,5 +1,6 @@
 #include "oracle/write_scene.h"
 
+#include <concepts>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -21,132 +22,151 @@ std::ostringstream exactStream() {
   return out;
 }
 
-std::string number(double value) {
+std::string json(double value) {
   std::ostringstream out = exactStream();
   out << value;
   return out.str();
 }
 
-std::string list(const Vec& v) {
-  return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
+std::string json(std::same_as<bool> auto value) { return value ? "true" : "false"; }
+
+std::string json(const std::string& text) { return '"' + text + '"'; }
+
+using List = std::vector<std::string>;  // of JSON
+
+std::string json(const List& elements) {
+  std::string text;
+  for (const std::string& element : elements) text += (text.empty() ? "" : ", ") + element;
+  return "[" + text + "]";
 }
 
-// The elements of a JSON list or object, one a line.
-template <typename Element, typename Describe>
-std::string joined(const std::vector<Element>& elements, const Describe& describe) {
-  std::string text;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    text += (i == 0 ? "\n    " : ",\n    ") + describe(elements[i], std::to_string(i));
+std::string json(const Vec& v) { return json(List{json(v.x), json(v.y), json(v.z)}); }
+
+// The members of an object.
+class Members {
+ public:
+  template <typename Value>
+  Members& add(const std::string& key, const Value& value) {
+    text_ += (text_.empty() ? "" : ",\n") + json(key) + ": " + json(value);
+    return *this;
   }
-  return text;
+
+  friend std::string json(const Members& members) { return "{" + members.text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+std::string numbered(const std::string& kind, std::size_t number) {
+  return kind + std::to_string(number);
 }
 
-std::string motionText(const Motion& motion) {
-  if (motion.keys.empty()) return "";
-  std::string text;
+Members membersOf(const Transform& t) {
+  const auto& [x, y, z] = t.axis;
+  return Members()
+      .add("scale", t.scale)
+      .add("rotate", List{json(x), json(y), json(z), json(t.degrees)})
+      .add("translate", t.translate);
+}
+
+void addMotion(const Motion& motion, Members& members) {
+  if (motion.keys.empty()) return;
+  List keys;
   for (const auto& [time, scale, degrees, translate] : motion.keys) {
-    text += (text.empty() ? R"({"time": )" : R"(, {"time": )") + number(time) + R"(, "scale": )" +
-            list(scale) + R"(, "rotate": [)" + number(motion.axis.x) + ", " +
-            number(motion.axis.y) + ", " + number(motion.axis.z) + ", " + number(degrees) +
-            R"(], "translate": )" + list(translate) + "}";
+    const Transform place{scale, motion.axis, degrees, translate};
+    keys.push_back(json(membersOf(place).add("time", time)));
   }
-
-  const std::string how = motion.inSteps ? R"(, "interpolation": "step"})" : "}";
-  return R"(, "motion": {"keys": [)" + text + "]" + how;
+  const std::string way = motion.inSteps ? "step" : "linear";
+  members.add("motion", Members().add("keys", keys).add("interpolation", way));
 }
 
-std::string cameraText(const Camera& c) {
-  std::string text = R"({"main": {"eye": )" + list(c.eye) + R"(, "at": )" + list(c.at) +
-                     R"(, "up": )" + list(c.up);
+Members membersOf(const Camera& c) {
+  Members members;
+  members.add("eye", c.eye).add("at", c.at).add("up", c.up);
   if (c.orthographicHeight > 0) {
-    text += R"(, "orthographicHeight": )" + number(c.orthographicHeight);
+    members.add("orthographicHeight", c.orthographicHeight);
   } else {
-    text += R"(, "fov": )" + number(c.fov);
+    members.add("fov", c.fov);
   }
-  if (c.aperture > 0) {
-    text += R"(, "aperture": )" + number(c.aperture) + R"(, "focus": )" + number(c.focus);
-  }
-  return text + motionText(c.motion) + "}}";
+  if (c.aperture > 0) members.add("aperture", c.aperture).add("focus", c.focus);
+  addMotion(c.motion, members);
+  return members;
 }
 
-std::string lightText(const Light& light) {
+Members membersOf(const Light& light) {
+  const std::string kinds[] = {"point", "spot", "directional"};
+  Members members;
+  members.add("type", kinds[static_cast<int>(light.kind)]);
   if (light.kind == Light::Kind::directional) {
-    return R"({"type": "directional", "direction": )" + list(light.direction) +
-           R"(, "irradiance": )" + list(light.intensity) + motionText(light.motion) + "}";
+    members.add("irradiance", light.intensity);
+  } else {
+    members.add("position", light.position)
+        .add("intensity", light.intensity)
+        .add("radius", light.radius);
   }
 
-  std::string text = R"({"position": )" + list(light.position) + R"(, "intensity": )" +
-                     list(light.intensity) + R"(, "radius": )" + number(light.radius);
+  if (light.kind != Light::Kind::point) members.add("direction", light.direction);
   if (light.kind == Light::Kind::spot) {
-    text += R"(, "type": "spot", "direction": )" + list(light.direction) +
-            R"(, "innerConeAngle": )" + number(light.innerConeAngle) + R"(, "outerConeAngle": )" +
-            number(light.outerConeAngle);
+    members.add("innerConeAngle", light.innerConeAngle).add("outerConeAngle", light.outerConeAngle);
   }
-  return text + motionText(light.motion) + "}";
+  addMotion(light.motion, members);
+  return members;
 }
 
-std::string skyText(const Sky& sky) {
-  const std::string scale = R"(, "scale": )" + number(sky.scale) + "}";
+Members membersOf(const Sky& sky) {
+  Members members;
+  members.add("scale", sky.scale);
   if (sky.kind == Sky::Kind::image) {
-    return R"({"image": "sky.hdr", "rotation": )" + number(sky.rotation) + scale;
+    return members.add("image", std::string("sky.hdr")).add("rotation", sky.rotation);
   }
-  return R"({"zenith": )" + list(sky.zenith) + R"(, "horizon": )" + list(sky.horizon) +
-         R"(, "ground": )" + list(sky.ground) + scale;
+  return members.add("zenith", sky.zenith).add("horizon", sky.horizon).add("ground", sky.ground);
 }
 
-std::string ambientText(const Ambient& ambient) {
-  const std::string end =
-      ambient.occlusion > 0 ? R"(, "occlusion": )" + number(ambient.occlusion) + "}" : "}";
-  if (ambient.fromSky > 0) return R"({"fromSky": )" + number(ambient.fromSky) + end;
-  return R"({"up": )" + list(ambient.up) + R"(, "down": )" + list(ambient.down) + end;
+Members membersOf(const Ambient& ambient) {
+  Members members;
+  if (ambient.occlusion > 0) members.add("occlusion", ambient.occlusion);
+  if (ambient.fromSky > 0) return members.add("fromSky", ambient.fromSky);
+  return members.add("up", ambient.up).add("down", ambient.down);
 }
 
-std::string materialText(const Material& m) {
-  std::string text = R"({"diffuse": )" + list(m.diffuse) + R"(, "specular": )" + list(m.specular) +
-                     R"(, "roughness": )" + number(m.roughness) + R"(, "emission": )" +
-                     list(m.emission) + R"(, "mirror": )" + list(m.mirror) +
-                     R"(, "mirrorGrazing": )" + list(m.mirrorGrazing);
+Members membersOf(const Material& m) {
+  Members members;
+  members.add("diffuse", m.diffuse)
+      .add("specular", m.specular)
+      .add("roughness", m.roughness)
+      .add("emission", m.emission)
+      .add("mirror", m.mirror)
+      .add("mirrorGrazing", m.mirrorGrazing);
 
-  const auto map = [&](const char* key, int number) {
-    if (number != kNone) text += R"(, ")" + (key + (R"(": "map)" + std::to_string(number))) + '"';
-  };
+  for (const auto& [key, map] : {std::pair{"diffuseMap", m.diffuseMap},
+                                 {"specularMap", m.specularMap},
+                                 {"emissionMap", m.emissionMap},
+                                 {"normalMap", m.normalMap},
+                                 {"alphaMap", m.alphaMap},
+                                 {"coverageMap", m.coverageMap}}) {
+    if (map != kNone) members.add(key, numbered("map", map));
+  }
 
-  map("diffuseMap", m.diffuseMap);
-  map("specularMap", m.specularMap);
-  map("emissionMap", m.emissionMap);
-  map("normalMap", m.normalMap);
-  map("alphaMap", m.alphaMap);
-  if (m.alphaMap != kNone) text += R"(, "alphaCutoff": )" + number(m.alphaCutoff);
-  if (m.coverage < 1) text += R"(, "coverage": )" + number(m.coverage);
-  map("coverageMap", m.coverageMap);
-
+  if (m.alphaMap != kNone) members.add("alphaCutoff", m.alphaCutoff);
+  if (m.coverage < 1) members.add("coverage", m.coverage);
   if (m.transmits()) {
-    text += R"(, "transmission": )" + list(m.transmission) + R"(, "ior": )" + number(m.ior) +
-            R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
-            std::to_string(m.priority);
+    members.add("transmission", m.transmission)
+        .add("ior", m.ior)
+        .add("absorption", m.absorption)
+        .add("priority", m.priority);
   }
 
-  if (!m.diffuseReflection) text += R"(, "diffuseReflection": false)";
-  if (m.thin) text += R"(, "thin": true)";
-  if (m.frosted) text += R"(, "frosted": true)";
+  if (!m.diffuseReflection) members.add("diffuseReflection", false);
+  if (m.thin) members.add("thin", true);
+  if (m.frosted) members.add("frosted", true);
   if (m.glossyReflection != Choice::unsaid) {
-    const bool reflects = m.glossyReflection == Choice::yes;
-    text += std::string(R"(, "glossyReflection": )") + (reflects ? "true" : "false");
+    members.add("glossyReflection", m.glossyReflection == Choice::yes);
   }
 
   // Said only where it is not what the rest makes of it.
   const bool casts = !m.transmits() && m.coverage >= 0.5;
-  if (m.castsShadow != casts) {
-    text += std::string(R"(, "castsShadow": )") + (m.castsShadow ? "true" : "false");
-  }
-
-  return text + "}";
-}
-
-std::string transformText(const Transform& t) {
-  return R"({"scale": )" + list(t.scale) + R"(, "rotate": [)" + number(t.axis.x) + ", " +
-         number(t.axis.y) + ", " + number(t.axis.z) + ", " + number(t.degrees) +
-         R"(], "translate": )" + list(t.translate) + "}";
+  if (m.castsShadow != casts) members.add("castsShadow", m.castsShadow);
+  return members;
 }
 
 std::string ply(const Mesh& mesh) {
@@ -178,10 +198,7 @@ std::string hdr(const Sky& sky) {
   std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(sky.height) +
                      " +X " + std::to_string(sky.width) + "\n";
   for (const Color& c : sky.texels) {
-    for (const double channel : {c.x, c.y, c.z}) {
-      file += static_cast<char>(static_cast<unsigned char>(channel * 256));
-    }
-    file += static_cast<char>(128);
+    for (const double channel : {c.x, c.y, c.z, 0.5}) file += char(static_cast<int>(channel * 256));
   }
   return file;
 }
@@ -190,90 +207,94 @@ std::string hdr(const Sky& sky) {
 std::string tga(const Texture& texture) {
   std::string file(18, '\0');
   file[2] = 2;
-  file[12] = static_cast<char>(texture.width);
-  file[14] = static_cast<char>(texture.height);
+  file[12] = char(texture.width);
+  file[14] = char(texture.height);
   file[16] = 24;
   file[17] = 0x20;
   for (const auto& [r, g, b] : texture.texels) {
-    for (const int channel : {b, g, r}) file += static_cast<char>(channel);
+    for (const int channel : {b, g, r}) file += char(channel);
   }
   return file;
 }
 
-std::string shapeText(const Scene& scene, const Object& object) {
+Members shapeOf(const Scene& scene, const Object& object) {
+  Members members;
   if (object.radius > 0) {
-    return R"({"shape": "sphere", "radius": )" + number(object.radius) +
-           R"(, "material": "material)" + std::to_string(object.material) + R"("})";
+    return members.add("shape", std::string("sphere"))
+        .add("radius", object.radius)
+        .add("material", numbered("material", object.material));
   }
-  return R"({"model": "mesh)" + std::to_string(object.mesh) + R"(.ply", "materials": {"*": )" +
-         materialText(scene.materials[static_cast<std::size_t>(object.material)]) + "}}";
+  const Members material = membersOf(scene.materials[object.material]);
+  return members.add("model", numbered("mesh", object.mesh) + ".ply")
+      .add("materials", Members().add("*", material));
 }
 
-// Shapes name their materials.
-std::string materialsOfShapes(const Scene& scene) {
-  std::vector<std::string> members;
-  for (const Object& object : scene.objects) {
-    if (!(object.radius > 0)) continue;
-    members.push_back(R"("material)" + std::to_string(object.material) + R"(": )" +
-                      materialText(scene.materials[static_cast<std::size_t>(object.material)]));
-  }
-  return joined(members, [](const std::string& member, const std::string&) { return member; });
-}
-
-std::string itemText(const Scene& scene, const Body& body);
+Members itemOf(const Scene& scene, const Body& body);
 
 // The items of an object's list.
-std::string contentText(const Scene& scene, const Object& object) {
-  std::string text;
-  for (const Body& body : object.before) text += itemText(scene, body) + ", ";
-  text += shapeText(scene, object);
-  for (const Body& body : object.after) text += ", " + itemText(scene, body);
-  return text;
+List contentOf(const Scene& scene, const Object& object) {
+  List items;
+  for (const Body& body : object.before) items.push_back(json(itemOf(scene, body)));
+  items.push_back(json(shapeOf(scene, object)));
+  for (const Body& body : object.after) items.push_back(json(itemOf(scene, body)));
+  return items;
 }
 
-std::string itemText(const Scene& scene, const Body& body) {
-  const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
-  const std::string what = body.inPlace ? R"({"group": [)" + contentText(scene, object) + "]"
-                                        : R"({"use": "object)" + std::to_string(body.object) + '"';
-  return what + R"(, "transform": )" + transformText(body.transform) + motionText(body.motion) +
-         "}";
+Members itemOf(const Scene& scene, const Body& body) {
+  Members members;
+  if (body.inPlace) {
+    members.add("group", contentOf(scene, scene.objects[body.object]));
+  } else {
+    members.add("use", numbered("object", body.object));
+  }
+  members.add("transform", membersOf(body.transform));
+  addMotion(body.motion, members);
+  return members;
 }
 
-std::string sceneText(const Scene& scene) {
-  std::ostringstream out;
-  out << "{\n  \"whit\": 1,\n  \"size\": [" << scene.width << ", " << scene.height << "],\n"
-      << "  \"cameras\": " << cameraText(scene.camera) << ",\n  \"lights\": ["
-      << joined(scene.lights,
-                [](const Light& light, const std::string&) { return lightText(light); })
-      << "],\n  \"sky\": " << skyText(scene.sky)
-      << ",\n  \"ambient\": " << ambientText(scene.ambient) << ",\n  \"textures\": {"
-      << joined(scene.textures,
-                [](const Texture&, const std::string& i) {
-                  return "\"map" + i + "\": {\"image\": \"map" + i + ".tga\"}";
-                })
-      << "},\n  \"materials\": {" << materialsOfShapes(scene) << "},\n  \"objects\": {"
-      << joined(scene.objects,
-                [&](const Object& object, const std::string& i) {
-                  return "\"object" + i + "\": [" + contentText(scene, object) + "]";
-                })
-      << "},\n  \"scene\": ["
-      << joined(scene.bodies,
-                [&](const Body& body, const std::string&) { return itemText(scene, body); })
-      << "]\n}\n";
-  return out.str();
+Members membersOf(const Scene& scene) {
+  List lights, bodies;
+  for (const Light& light : scene.lights) lights.push_back(json(membersOf(light)));
+  for (const Body& body : scene.bodies) bodies.push_back(json(itemOf(scene, body)));
+
+  Members textures, materials, objects;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const std::string name = numbered("map", i);
+    textures.add(name, Members().add("image", name + ".tga"));
+  }
+  // Shapes name their materials; models have them.
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    objects.add(numbered("object", i), contentOf(scene, object));
+    if (!(object.radius > 0)) continue;
+    materials.add(numbered("material", object.material),
+                  membersOf(scene.materials[object.material]));
+  }
+
+  return Members()
+      .add("whit", 1)
+      .add("size", List{json(scene.width), json(scene.height)})
+      .add("cameras", Members().add("main", membersOf(scene.camera)))
+      .add("lights", lights)
+      .add("sky", membersOf(scene.sky))
+      .add("ambient", membersOf(scene.ambient))
+      .add("textures", textures)
+      .add("materials", materials)
+      .add("objects", objects)
+      .add("scene", bodies);
 }
 
 }  // namespace
 
 std::string writeScene(const Scene& scene, const std::string& folder) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    save(folder + "/mesh" + std::to_string(i) + ".ply", ply(scene.meshes[i]));
+    save(folder + numbered("/mesh", i) + ".ply", ply(scene.meshes[i]));
   }
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    save(folder + "/map" + std::to_string(i) + ".tga", tga(scene.textures[i]));
+    save(folder + numbered("/map", i) + ".tga", tga(scene.textures[i]));
   }
   if (scene.sky.kind == Sky::Kind::image) save(folder + "/sky.hdr", hdr(scene.sky));
-  save(folder + "/scene.json", sceneText(scene));
+  save(folder + "/scene.json", json(membersOf(scene)));
   return folder + "/scene.json";
 }
 

@@ -22,6 +22,9 @@ inline constexpr double kWeightAngle = 4.2426406871192857 * 0x1p-23;
 // the ends of the chord, in lengths of the direction. Both ends are NaN when the line misses.
 struct BallChord {
   long double aside = 0, near = 0, far = 0;
+
+  // The end that a ray hits, which is negative if both are behind it.
+  long double ahead() const { return near > 0 ? near : far; }
 };
 
 inline BallChord chordOf(const Vec3l& fromCenter, const Vec3l& direction, long double radius) {
@@ -37,37 +40,32 @@ struct Ball {
   Vec3f center;
   float radius = 1;
 
-  double r() const { return static_cast<double>(radius); }
+  double r() const { return radius; }
   // The point at this distance from the center, which is given in radii.
   Vec3d point(const Vec3d& direction, double radii) const {
     return Vec3d(center) + direction * (radii * r());
   }
-  Mesh mesh(std::uint32_t material) const {
+  Mesh mesh(std::uint32_t material = 0) const {
     return exactSphere(material, Affine::translation(Vec3d(center)) * Affine::scaling(Vec3d(r())));
   }
-  Scene scene(const Material& material) const { return sceneOf(mesh(0), material); }
+  Scene scene(const Material& material) const { return sceneOf(mesh(), material); }
 
   BallChord chord(const ProbeRay& ray) const {
-    return chordOf(Vec3l(ray.origin) - Vec3l(center), Vec3l(ray.direction),
-                   static_cast<long double>(radius));
+    return chordOf(Vec3l(ray.origin) - Vec3l(center), Vec3l(ray.direction), radius);
   }
-  double aside(const ProbeRay& ray) const { return static_cast<double>(chord(ray).aside); }
+  double aside(const ProbeRay& ray) const { return double(chord(ray).aside); }
   double heightOf(const Vec3f& position) const {
-    const Vec3l from = Vec3l(position) - Vec3l(center);
-    return static_cast<double>(std::sqrt(dot(from, from)) - static_cast<long double>(radius));
+    return double(length(Vec3l(position) - Vec3l(center)) - radius);
   }
   // Upper bound on the height of a hit's position: the length of the unit vector is off by four and
   // a half roundings (three products, root, quotient, product), the radius by one, the sum with the
   // center by one of the sum.
   double heightError() const { return kBallRounding * (6.5 * r() + length(Vec3d(center))); }
-
-  // The sphere and the ray as text, for a Finding within the same expression.
-  auto described(const ProbeRay& ray) const {
-    return [this, &ray] {
-      return "radius " + hexText(r()) + " about " + hexText(center) + ", " + describeRay(ray);
-    };
-  }
 };
+
+inline std::string textOf(const Ball& ball) {
+  return "radius " + textOf(ball.r()) + " about " + textOf(ball.center) + ", ";
+}
 
 inline bool enters(const Probe& probe, std::size_t i) {
   return (probe.surfels().flags[i] & kEntering) != 0;
@@ -77,22 +75,12 @@ inline Vec3d across(const Vec3d& d, Numbers& numbers) {
   return normalized(cross(d, numbers.direction()));
 }
 
-// `n` rays, each made by make(numbers, number of the ray).
-template <typename Make>
-std::vector<ProbeRay> randomRays(int n, std::uint64_t seed, const Make& make) {
-  Numbers numbers(seed);
-  std::vector<ProbeRay> rays;
-  for (int i = 0; i < n; ++i) rays.push_back(make(numbers, i));
-  return rays;
-}
-
 // Radii from 1e-6 to 1e6, each at these distances from the origin, in radii.
 inline std::vector<Ball> ballsOfAllSizes(std::initializer_list<double> distances) {
   std::vector<Ball> balls;
   for (const double radius : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     for (const double away : distances) {
-      balls.push_back(
-          {Vec3f(Vec3d{0.6, -0.64, 0.48} * (away * radius)), static_cast<float>(radius)});
+      balls.push_back({Vec3f(Vec3d{0.6, -0.64, 0.48} * (away * radius)), float(radius)});
     }
   }
   return balls;

@@ -8,7 +8,7 @@
 namespace whit::verify {
 
 // A subdivided icosahedron with corners rounded to float, and the sphere's normals if smooth.
-inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
+inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material = 0,
                        bool smooth = false) {
   const auto [points, triangles] = procedural::icosphereMesh(level);
 
@@ -23,15 +23,19 @@ inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint3
   return mesh;
 }
 
+// Appends a triangle that shares no corner with others.
+inline void addTriangle(Mesh& mesh, const Vec3f (&corners)[3]) {
+  const std::uint32_t first = size32(mesh.positions);
+  mesh.positions.insert(mesh.positions.end(), std::begin(corners), std::end(corners));
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
 // The same mesh without shared corners.
 inline Mesh unshared(const Mesh& mesh) {
   Mesh result;
   result.materials = mesh.materials;
-
-  for (const auto& triangle : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(result.positions.size());
-    for (const std::uint32_t corner : triangle) result.positions.push_back(mesh.positions[corner]);
-    result.triangles.push_back({first, first + 1, first + 2});
+  for (const auto& [a, b, c] : mesh.triangles) {
+    addTriangle(result, {mesh.positions[a], mesh.positions[b], mesh.positions[c]});
   }
   return result;
 }
@@ -60,8 +64,7 @@ inline Mesh grid() {
 
 inline Scene sceneOf(Mesh mesh, const Material& material) {
   SceneBuilder builder;
-  mesh.materials = {builder.add(material)};
-  builder.add(std::move(mesh));
+  builder.add(std::move(mesh), material);
   return builder.build();
 }
 
@@ -69,23 +72,22 @@ inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
   return {origin, Vec3f(normalized(Vec3d(target) - Vec3d(origin)))};
 }
 
-// Rays from all around, at three radii from the center, through the inside of the sphere.
-inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::size_t n,
-                                      std::uint64_t seed) {
+// `n` rays, each made by make(numbers, number of the ray).
+template <typename Make>
+std::vector<ProbeRay> randomRays(int n, std::uint64_t seed, const Make& make) {
   Numbers numbers(seed);
   std::vector<ProbeRay> rays;
-
-  while (rays.size() < n) {
-    const Vec3f from(center + numbers.direction() * (3 * radius));
-    rays.push_back(rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius))));
-  }
+  for (int i = 0; i < n; ++i) rays.push_back(make(numbers, i));
   return rays;
 }
 
-inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
-// Describes a ray for a Finding within one expression.
-inline auto described(const ProbeRay& ray) {
-  return [&ray] { return describeRay(ray); };
+// Rays from all around, at three radii from the center, through the inside of the sphere.
+inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, int n,
+                                      std::uint64_t seed) {
+  return randomRays(n, seed, [&](Numbers& numbers, int) {
+    const Vec3f from(center + numbers.direction() * (3 * radius));
+    return rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius)));
+  });
 }
 
 // Camera that looks down from 3 above the origin.

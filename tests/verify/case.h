@@ -5,9 +5,10 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,34 +31,44 @@ inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
 inline constexpr float kInf = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
+// An input as text. Numbers with a fraction are hexadecimal, so that they can be pasted into C++.
+inline std::string textOf(std::string_view text) { return std::string(text); }
+std::string textOf(double value);
+template <std::integral Number>
+std::string textOf(Number number) {
+  return std::to_string(number);
+}
+template <typename Number>
+std::string textOf(const Vec3<Number>& v) {
+  return textOf(double(v.x)) + " " + textOf(double(v.y)) + " " + textOf(double(v.z));
+}
+
 // The worst error of a run, and its input.
 class Finding {
  public:
-  // `bound` is the largest worst value that holds; kNoBound for a case that is only reported.
-  explicit Finding(double bound) : bound_(bound) {}
+  // Sets the largest worst value that holds: 0 for a case that counts failures, which is the
+  // default; kNoBound for one that is only reported.
+  void boundBy(double bound) { bound_ = bound; }
 
-  // Adds an error; `describe()` returns its input as text with hex floats. NaN is worse than any
-  // number.
-  template <typename Describe>
-  void note(double error, const Describe& describe) {
+  // Adds an error. `input` is what textOf() makes a text of, only where it is needed. NaN is worse
+  // than any number.
+  template <typename... Input>
+  void note(double error, const Input&... input) {
     ++seen_;
     const double e = std::isnan(error) ? kNoBound : error;
     if (e <= worst_ && !input_.empty()) return;
 
     worst_ = std::max(e, worst_);
-    input_ = describe();
+    input_ = (textOf(input) + ...);
   }
   // Counts failures instead of errors; keeps the input of the first failure.
-  template <typename Describe>
-  void count(bool failed, const Describe& describe) {
+  template <typename... Input>
+  void count(bool failed, const Input&... input) {
     ++seen_;
     if (!failed) return;
-    if (worst_ == 0) input_ = describe();
+    if (worst_ == 0) input_ = (textOf(input) + ...);
     worst_ += 1;
   }
-  // Adds the failures of another finding.
-  void merge(const Finding& other);
-
   double worst() const { return worst_; }
   double bound() const { return bound_; }
   std::uint64_t seen() const { return seen_; }  // number of inputs tried
@@ -71,49 +82,38 @@ class Finding {
   std::string input_;
 };
 
+// A run of a case: its kernels, and what it finds.
+struct Run : Setup, Finding {
+  explicit Run(const Setup& setup) : Setup(setup) {}
+};
+
 struct Case {
   std::string_view name;          // "H13", with a letter behind it where a number has several
   std::string_view title;         // what must hold
   std::string_view construction;  // how the input is made and what it is held against
+  void (*run)(Run& run) = nullptr;
   Runs runs = Runs::packets;
-  Finding (*run)(const Setup& setup) = nullptr;
 
-  int number() const;
+  int number() const { return std::atoi(name.data() + 1); }
 };
 
-// One family per file.
-std::span<const Case> leavingSurfaceCases();
-std::span<const Case> thinPlaceCases();
-std::span<const Case> watertightnessCases();
-std::span<const Case> oddDirectionCases();
-std::span<const Case> degenerateGeometryCases();
-std::span<const Case> randomSceneCases();
-std::span<const Case> shadingNormalCases();
-std::span<const Case> refractionCases();
-std::span<const Case> nestedDielectricCases();
-std::span<const Case> rangeCases();
-std::span<const Case> invarianceCases();
-std::span<const Case> recursionCases();
-std::span<const Case> lightAndFilmCases();
-std::span<const Case> coplanarFaceCases();
-std::span<const Case> sphereCases();
-std::span<const Case> spherePathCases();
-
+// The cases of a file.
 struct Family {
   std::string_view name;
-  std::span<const Case> cases;
+  std::vector<Case> cases;
 };
-std::vector<Family> families();
+extern const Family kLeavingSurfaceCases, kThinPlaceCases, kWatertightnessCases, kOddDirectionCases,
+    kDegenerateGeometryCases, kRandomSceneCases, kShadingNormalCases, kRefractionCases,
+    kNestedDielectricCases, kRangeCases, kInvarianceCases, kRecursionCases, kLightAndFilmCases,
+    kCoplanarFaceCases, kSphereCases, kSpherePathCases;
+
+// All families in the order of the table.
+const std::vector<Family>& families();
 
 // The setups of this machine and build; at least one.
 std::vector<Setup> setupsOf(Runs runs);
 
 // Runs a case once, and sets the SIMD target back to "auto".
 Finding runCase(const Case& c, const Setup& setup);
-
-// Numbers as text that can be pasted into C++.
-std::string hexText(double value);
-std::string hexText(const Vec3f& v);
-std::string hexText(const Vec3f& origin, const Vec3f& direction);
 
 }  // namespace whit::verify

@@ -13,8 +13,8 @@ std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
   std::array<Vec3f, 2> corners;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = std::floor(numbers.in(-2, 2));
-    corners[0][axis] = static_cast<float>(low);
-    corners[1][axis] = static_cast<float>(low + std::floor(numbers.in(1, 3)));
+    corners[0][axis] = float(low);
+    corners[1][axis] = float(low + std::floor(numbers.in(1, 3)));
   }
   return corners;
 }
@@ -25,11 +25,11 @@ std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
 Scene blocksOnGrid(std::uint64_t seed) {
   Numbers numbers(seed);
   SceneBuilder builder;
-  const std::array<std::uint32_t, 6> all{
+  const std::uint32_t all[] = {
       builder.add(diffuseMaterial(0.6f)),  builder.add(mirrorMaterial(0.7f)),
       builder.add(glassMaterial(1.5f, 1)), builder.add(glassMaterial(1.33f)),
       builder.add(diffuseMaterial(0.2f)),  builder.add(emittingMaterial(0.4f))};
-  const auto any = [&] { return all[static_cast<std::size_t>(numbers.in(0, 6))]; };
+  const auto any = [&] { return all[int(numbers.in(0, 6))]; };
 
   Object object;
   for (int i = 0; i < 8; ++i) {
@@ -38,7 +38,7 @@ Scene blocksOnGrid(std::uint64_t seed) {
   }
   object.meshes.push_back(floorAt(-2, 6, all[0]));
   for (int i = 0; i < 3; ++i) {
-    object.meshes.push_back(floorAt(-2, static_cast<float>(numbers.in(1, 5)), any()));
+    object.meshes.push_back(floorAt(-2, float(numbers.in(1, 5)), any()));
   }
 
   // The sheets cross in the middle.
@@ -80,116 +80,89 @@ void lookStraightDown(const Scene& scene, float height, const Setup& setup, cons
   camera.orthographicHeight = height;
 
   for (const Image& image : picturesOf(scene, camera, fewPixels(setup))) {
-    const double pixel = static_cast<double>(height) / image.height;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        visit(image.at(x, y).x, (x + 0.5 - image.width / 2.0) * pixel,
-              (y + 0.5 - image.height / 2.0) * pixel);
-      }
-    }
+    forEachRay(camera, image.width, image.height,
+               [&](const Vec3d& start, const Vec3d&, int x, int y) {
+                 visit(image.at(x, y).x, start.x, start.z);
+               });
   }
 }
 
 // Compares pictures with packets of one ray, other tiles, queues, batches, threads and a crop.
-Finding sameBits(const Setup& setup) {
-  Finding finding(0);
+void sameBits(Run& run) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Scene scene = blocksOnGrid(seed);
-    const auto picture = [&](const RenderOptions& options) {
-      return pictureOf(scene, scene.cameras[0], options);
+    const Image own = pictureOf(scene, scene.cameras[0], fewPixels(run));
+    const auto check = [&](const char* how, const auto& change) {
+      RenderOptions options = fewPixels(run);
+      change(options);
+      countOtherPixels(run, pictureOf(scene, scene.cameras[0], options), own,
+                       concat("seed ", seed, ", ", how));
     };
-    const auto differs = [&](const RenderOptions& options, const Image& from, const char* how) {
-      countOtherPixels(finding, picture(options), from,
-                       "seed " + std::to_string(seed) + ", " + how);
-    };
 
-    RenderOptions options = fewPixels(setup);
-    const Image own = picture(options);
-
-    options.packet = 1;
-    differs(options, own, "single rays");
-
-    options = fewPixels(setup);
-    options.tile = 7;
-    options.queue = 40;
-    differs(options, own, "other tiles and queues");
-
-    options = fewPixels(setup);
-    options.batch = Batch::frame;
-    options.threads = 1 + static_cast<int>(seed % 3);
-    differs(options, own, "whole frames as batches");
-
-    options = fewPixels(setup);
-    options.crop = Crop{13, 11, 40, 31};
-    differs(options, own, "a crop");
+    check("single rays", [](RenderOptions& options) { options.packet = 1; });
+    check("other tiles and queues", [](RenderOptions& options) {
+      options.tile = 7;
+      options.queue = 40;
+    });
+    check("whole frames as batches", [&](RenderOptions& options) {
+      options.batch = Batch::frame;
+      options.threads = 1 + int(seed % 3);
+    });
+    check("a crop", [](RenderOptions& options) { options.crop = Crop{13, 11, 40, 31}; });
   }
-  return finding;
 }
 
 // A block of glass with a face coincident with an opaque floor that hides something bright.
-Finding glassOnTheFloor(const Setup& setup) {
-  Finding finding(0);
+void glassOnTheFloor(Run& run) {
   for (const float height : {0.0f, 0.1f, 33.3f}) {
     SceneBuilder builder;
-    builder.add(floorAt(height - 0.5f, 8, builder.add(emittingMaterial(100))));
-    builder.add(floorAt(height, 8, builder.add(emittingMaterial(0.5f))));
-    builder.add(box({-1, height, -1}, {1, height + 1, 1}, builder.add(glassMaterial(1.5f))));
-    const Scene scene = builder.build();
+    builder.add(floorAt(height - 0.5f, 8), emittingMaterial(100));
+    builder.add(floorAt(height, 8), emittingMaterial(0.5f));
+    builder.add(box({-1, height, -1}, {1, height + 1, 1}), glassMaterial(1.5f));
+    const Camera camera{.eye = {1.5f, height + 2.5f, 3}, .at = {0, height, 0}};
 
-    Camera camera;
-    camera.eye = {1.5f, height + 2.5f, 3};
-    camera.at = {0, height, 0};
-
-    for (const Image& image : picturesOf(scene, camera, fewPixels(setup))) {
+    for (const Image& image : picturesOf(builder.build(), camera, fewPixels(run))) {
       for (const Rgb& pixel : image.pixels) {
-        finding.count(!(maxComponent(pixel) <= 0.5f),
-                      [&] { return "height " + hexText(double{height}); });
+        run.count(!(maxComponent(pixel) <= 0.5f), "height ", height);
       }
     }
   }
-  return finding;
 }
 
 // A glowing floor under two slabs, one on the other: the picture shows the light that none of the
 // three interfaces reflects, first order only.
-Finding slabOnSlab(const Setup& setup) {
+void slabOnSlab(Run& run) {
   // About two dozen roundings lie between the floor's radiance and the pixel.
-  Finding finding(24 * 0x1p-24);
+  run.boundBy(24 * 0x1p-24);
   for (const float below : {1.5f, 1.33f, 2.0f}) {
     SceneBuilder builder;
-    addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f, 1)), 50);
-    addSlab(builder, 0, -1, builder.add(glassMaterial(below)), 50);
-    builder.add(floorAt(-2, 50, builder.add(emittingMaterial(1))));
+    addSlab(builder, 1, 0, glassMaterial(1.5f, 1), 50);
+    addSlab(builder, 0, -1, glassMaterial(below), 50);
+    builder.add(floorAt(-2, 50), emittingMaterial(1));
 
-    Camera camera;
-    camera.eye = {0, 3, 0};
-    camera.at = {0, 0, 0};
-    camera.up = {0, 0, -1};
+    Camera camera = lookingDown();
     camera.orthographicHeight = 1;
 
-    RenderOptions options = fewPixels(setup);
+    RenderOptions options = fewPixels(run);
     options.depth = 3;
     options.cutoff = 0;
 
     // The transmittance of Fresnel's equations at normal incidence.
     const auto passes = [](double a, double b) { return 1 - std::pow((a - b) / (a + b), 2); };
-    const double n = static_cast<double>(below);
+    const double n = below;
     const double wanted = passes(1, 1.5) * passes(1.5, n) * passes(n, 1);
 
     for (const Image& image : picturesOf(builder.build(), camera, options)) {
       for (const Rgb& pixel : image.pixels) {
-        finding.note(std::fabs(static_cast<double>(pixel.x) / wanted - 1),
-                     [&] { return "index " + hexText(n); });
+        run.note(std::fabs(pixel.x / wanted - 1), "index ", n);
       }
     }
   }
-  return finding;
 }
 
 // Among coincident squares an opaque one is seen rather than glass, and the later one of two in the
 // scene.
-Finding whichIsSeen(const Setup& setup) {
-  Finding finding(0);
+void whichIsSeen(Run& run) {
   for (const bool glassFirst : {false, true}) {
     SceneBuilder builder;
     const auto lower = builder.add(emittingMaterial(0.25f)),
@@ -201,15 +174,14 @@ Finding whichIsSeen(const Setup& setup) {
     builder.add(floorAt(0, 2.5f, upper));
     if (!glassFirst) builder.add(floorAt(0, 2, glass));
 
-    for (const Image& image : picturesOf(builder.build(), lookingDown(), fewPixels(setup))) {
+    for (const Image& image : picturesOf(builder.build(), lookingDown(), fewPixels(run))) {
       for (const Rgb& pixel : image.pixels) {
-        finding.count(pixel.x != 0.75f && pixel.x != 0.25f && pixel.x != 0,
-                      [&] { return "something else: " + hexText(static_cast<double>(pixel.x)); });
+        run.count(pixel.x != 0.75f && pixel.x != 0.25f && pixel.x != 0,
+                  "something else: ", pixel.x);
       }
-      finding.count(image.at(32, 24).x != 0.75f, [] { return "not the later one"; });
+      run.count(image.at(32, 24).x != 0.75f, "not the later one");
     }
   }
-  return finding;
 }
 
 // Ways in which a square may be stored apart from others: in the world, in an instance, with the
@@ -230,71 +202,58 @@ void addStored(int way, float half, float radiance, SceneBuilder& builder) {
 
 // The later one of two coincident squares is seen up to its edges, in whatever order they are
 // stored.
-Finding laterHoweverStored(const Setup& setup) {
-  Finding finding(0);
+void laterHoweverStored(Run& run) {
   for (int early = 0; early < kWaysOfStoring; ++early) {
     for (int late = 0; late < kWaysOfStoring; ++late) {
       SceneBuilder builder;
       addStored(early, 1.7f, 0.25f, builder);
       addStored(late, 1.3f, 0.75f, builder);
 
-      lookStraightDown(builder.build(), 3, setup, [&](float color, double x, double z) {
+      lookStraightDown(builder.build(), 3, run, [&](float color, double x, double z) {
         if (std::fabs(x) > 1.3 || std::fabs(z) > 1.3) return;
-        finding.count(color != 0.75f, [&] {
-          return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", at " +
-                 hexText(x) + " " + hexText(z);
-        });
+        run.count(color != 0.75f, "stored ", early, " and ", late, ", at ", x, " ", z);
       });
     }
   }
-  return finding;
 }
 
 // A decal in the corner of a floor, with one corner or an edge in common, covers exactly its own
 // area.
-Finding decalInACorner(const Setup& setup) {
-  Finding finding(0);
+void decalInACorner(Run& run) {
   for (const float side : {1.0f, 4.0f}) {
     SceneBuilder builder;
     const auto floor = builder.add(emittingMaterial(0.25f)),
                decal = builder.add(emittingMaterial(0.75f));
 
-    builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
+    builder.add(floorAt(0, 2, floor));
     builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
 
-    lookStraightDown(builder.build(), 3.9f, setup, [&](float color, double x, double z) {
+    lookStraightDown(builder.build(), 3.9f, run, [&](float color, double x, double z) {
       if (std::fabs(x) > 2) return;
-      const bool covered = x < static_cast<double>(side) - 2 && z > 1;
-      finding.count(color != (covered ? 0.75f : 0.25f), [&] {
-        return "side " + hexText(double{side}) + ", at " + hexText(x) + " " + hexText(z);
-      });
+      const bool covered = x < double{side} - 2 && z > 1;
+      run.count(color != (covered ? 0.75f : 0.25f), "side ", side, ", at ", x, " ", z);
     });
   }
-  return finding;
 }
-
-constexpr Case kCoplanarFaceCases[] = {
-    {"H80", "the same bits with coplanar faces",
-     "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
-     "rays, other tiles, queues, batches, threads, a crop",
-     Runs::packets, sameBits},
-    {"H81", "glass on an opaque floor does not leak",
-     "pixels that show what is under the floor, at three heights", Runs::packets, glassOnTheFloor},
-    {"H82", "slab on slab, with coincident faces",
-     "light through three interfaces, against Fresnel; equal and other indices", Runs::packets,
-     slabOnSlab},
-    {"H83", "which of several coincident faces is seen",
-     "the opaque one, the later one, in any order with glass", Runs::packets, whichIsSeen},
-    {"H83a", "a decal in the corner of a floor covers what it covers",
-     "two triangles of one plane with one corner or an edge in common", Runs::packets,
-     decalInACorner},
-    {"H83b", "the later of two faces is seen, however they are stored",
-     "in the world, as an instance, without a shadow, with holes: all pairs", Runs::packets,
-     laterHoweverStored},
-};
 
 }  // namespace
 
-std::span<const Case> coplanarFaceCases() { return kCoplanarFaceCases; }
+const Family kCoplanarFaceCases{
+    "coplanar faces",
+    {{"H80", "the same bits with coplanar faces",
+      "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
+      "rays, other tiles, queues, batches, threads, a crop",
+      sameBits},
+     {"H81", "glass on an opaque floor does not leak",
+      "pixels that show what is under the floor, at three heights", glassOnTheFloor},
+     {"H82", "slab on slab, with coincident faces",
+      "light through three interfaces, against Fresnel; equal and other indices", slabOnSlab},
+     {"H83", "which of several coincident faces is seen",
+      "the opaque one, the later one, in any order with glass", whichIsSeen},
+     {"H83a", "a decal in the corner of a floor covers what it covers",
+      "two triangles of one plane with one corner or an edge in common", decalInACorner},
+     {"H83b", "the later of two faces is seen, however they are stored",
+      "in the world, as an instance, without a shadow, with holes: all pairs",
+      laterHoweverStored}}};
 
 }  // namespace whit::verify

@@ -18,21 +18,18 @@ SceneDescription descriptionOf(const std::vector<Mesh>& meshes, const Material& 
   return d;
 }
 
-Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& what) {
-  Finding finding(0);
+template <typename... Input>
+void finitePixels(Run& run, const Scene& scene, const Input&... input) {
   for (const Camera& camera : scene.cameras) {
-    for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {33, 21})).pixels) {
-      finding.count(!isFinite(pixel) || pixel.x < 0, [&] { return what; });
+    for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(run, {33, 21})).pixels) {
+      run.count(!isFinite(pixel) || pixel.x < 0, input...);
     }
   }
-  return finding;
 }
 
 // Tests the position that shading uses, which comes from the weights and not from t.
-Finding positionsOfNeedles(const Setup& setup) {
-  Finding finding(0x1p-18);
-  Numbers numbers(25);
-
+void positionsOfNeedles(Run& run) {
+  run.boundBy(0x1p-18);
   // The fan consists of needles of 0.09 degrees each.
   Mesh fan;
   constexpr std::uint32_t kNeedles = 4000;
@@ -48,79 +45,65 @@ Finding positionsOfNeedles(const Setup& setup) {
   const Scene scene = sceneOf(fan, diffuseMaterial(1));
 
   // The rays hit points from 1e-4 to 1 away from the tip of the fan.
-  std::vector<ProbeRay> rays;
-  for (std::uint32_t i = 0; i < kNeedles; ++i) {
+  const auto rays = randomRays(kNeedles, 25, [](Numbers& numbers, int) {
     const double turn = numbers.in(0, 6.28), r = std::pow(10, -numbers.in(0.001, 4));
     const Vec3f target(Vec3d{r * std::cos(turn), 0, r * std::sin(turn)});
-    rays.push_back(rayThrough(target + Vec3f{0.1f, 1, 0.2f}, target));
-  }
+    return rayThrough(target + Vec3f{0.1f, 1, 0.2f}, target);
+  });
 
-  Probe probe(scene, setup, rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  Probe probe(scene, run, rays);
+  for (const auto i : indices(rays)) {
     if (!probe.isHit(i)) continue;
     const float u = probe.hits().u[i], v = probe.hits().v[i];
     const float least = -0x1p-22f;
     const bool sound = u >= least && v >= least && u + v <= 1 - 2 * least;
-    const double height = std::fabs(static_cast<double>(probe.position(i).y));
+    const double height = std::fabs(probe.position(i).y);
     const double unit = std::fabs(length(Vec3d(probe.ns(i))) - 1);
-
-    finding.note(sound ? std::max(height, unit) : 1, [&] {
-      return describeRay(rays[i]) + ", u " + hexText(double{u}) + ", v " + hexText(double{v});
-    });
+    run.note(sound ? std::max(height, unit) : 1, rays[i], ", u ", u, ", v ", v);
   }
-  return finding;
 }
 
 // Triangles without area of each kind, and slivers, beside a valid floor.
-Finding degenerateTriangles(const Setup& setup) {
-  Mesh mesh = floorAt(0, 1, 0);
-  const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3f& p : {a, b, c}) mesh.positions.push_back(p), mesh.uvs.push_back({0, 0});
-    mesh.triangles.push_back({n, n + 1, n + 2});
-  };
-
+void degenerateTriangles(Run& run) {
+  Mesh mesh = floorAt(0, 1);
   // One triangle repeats a corner, two have collinear corners, and two are slivers.
   mesh.triangles.push_back({0, 0, 1});
-  add({0, 0.1f, 0}, {0.5f, 0.1f, 0}, {1, 0.1f, 0});
-  add({-1113.45f, -79.049614f, -56.2431908f}, {-1113.45f, -87.0922699f, -56.2431908f},
-      {-1113.45f, -79.2090149f, -56.2431908f});
-  add({0, 0.2f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 1e-20f});
-  add({0, 0.3f, 0}, {1, 0.3f, 0}, {0.5f, 0.3f, 1e-7f});
+  addTriangle(mesh, {{0, 0.1f, 0}, {0.5f, 0.1f, 0}, {1, 0.1f, 0}});
+  addTriangle(mesh, {{-1113.45f, -79.049614f, -56.2431908f},
+                     {-1113.45f, -87.0922699f, -56.2431908f},
+                     {-1113.45f, -79.2090149f, -56.2431908f}});
+  addTriangle(mesh, {{0, 0.2f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 1e-20f}});
+  addTriangle(mesh, {{0, 0.3f, 0}, {1, 0.3f, 0}, {0.5f, 0.3f, 1e-7f}});
+  mesh.uvs.resize(mesh.positions.size());
 
   SceneDescription d = descriptionOf({mesh}, diffuseMaterial(1));
   // The slivers fill the middle row.
   d.cameras = {{.eye = {0.5f, 3, 0.02f}, .at = {0.5f, 0, 0}, .up = {0, 0, -1}, .fov = 2}};
-  return finitePixels(repaired(std::move(d)), setup, "degenerate triangles and slivers");
+  finitePixels(run, repaired(std::move(d)), "degenerate triangles and slivers");
 }
 
 // With edges from 1e-14 to 1e14, the normal is the normal of the plane.
-Finding tinyAndHugeTriangles(const Setup& setup) {
-  Finding finding(4 * 0x1p-24);
+void tinyAndHugeTriangles(Run& run) {
+  run.boundBy(4 * 0x1p-24);
   Mesh mesh;
-  std::uint32_t count = 0;
-  for (int e = -14; e <= 14; ++e, ++count) {
-    const auto s = static_cast<float>(std::pow(10, e));
-    mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {s, 0, 0.5f * s}, {0, 0.75f * s, s}});
-    mesh.triangles.push_back({3 * count, 3 * count + 1, 3 * count + 2});
+  for (int e = -14; e <= 14; ++e) {
+    const float s = float(std::pow(10, e));
+    addTriangle(mesh, {{0, 0, 0}, {s, 0, 0.5f * s}, {0, 0.75f * s, s}});
   }
 
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.hitEach(count);
+  Probe probe(scene, run);
+  probe.hitEach(size32(mesh.triangles));
 
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < probe.size(); ++i) {
     const Corners c = worldCorners(scene, i, kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     if (n.z < 0) n = -n;
-    finding.note(maxComponent(abs(Vec3d(probe.ng(i)) - n)),
-                 [&] { return "edge " + hexText(c[1].x); });
+    run.note(maxComponent(abs(Vec3d(probe.ng(i)) - n)), "edge ", c[1].x);
   }
-  return finding;
 }
 
-Finding hugeNextToTiny(const Setup& setup) {
-  Finding finding(0);
+void hugeNextToTiny(Run& run) {
   for (const float half : {1e4f, 1e9f, 1e15f}) {
     SceneBuilder builder;
     const auto gray = builder.add(diffuseMaterial(1));
@@ -128,28 +111,24 @@ Finding hugeNextToTiny(const Setup& setup) {
     builder.add(sphereMesh(2, {0, 2, 0}, 1, gray));
     const Scene scene = builder.build();
 
-    Numbers numbers(26);
-    std::vector<ProbeRay> down, up;
-    for (int i = 0; i < 500; ++i) {
+    // From high above, and from just below.
+    const auto down = randomRays(500, 26, [](Numbers& numbers, int) {
       const double x = numbers.in(2, 500), z = numbers.in(-500, 500);
-      down.push_back({Vec3f(Vec3d{x, 120500, z}), {0, -1, 0}});
-      up.push_back({Vec3f(Vec3d{x, -1e-30, z}), {0, -1, 0}});
-    }
+      return ProbeRay{Vec3f(Vec3d{x, 120500, z}), {0, -1, 0}};
+    });
+    std::vector<ProbeRay> up = down;
+    for (ProbeRay& ray : up) ray.origin.y = -1e-30f;
 
-    Probe probe(scene, setup), phantom(scene, setup);
-    probe.cast(down);
-    phantom.cast(up);
-    for (std::size_t i = 0; i < down.size(); ++i) {
-      finding.count(!probe.isHit(i) || probe.position(i).y != 0, described(down[i]));
-      finding.count(phantom.isHit(i), described(up[i]));
+    const Probe probe(scene, run, down), phantom(scene, run, up);
+    for (const auto i : indices(down)) {
+      run.count(!probe.isHit(i) || probe.position(i).y != 0, down[i]);
+      run.count(phantom.isHit(i), up[i]);
     }
   }
-  return finding;
 }
 
 // The triangles of one bad corner are dropped and counted; the others stay.
-Finding badVertices(const Setup& setup) {
-  Finding finding(0);
+void badVertices(Run& run) {
   for (const float bad : {kNan, kInf, -kInf, 1e19f, 3e38f}) {
     Mesh mesh = grid();
     mesh.positions[2000].y = bad;
@@ -161,65 +140,55 @@ Finding badVertices(const Setup& setup) {
     const auto dropped = entries.find("triangle with a non-finite or enormous corner dropped");
 
     // Six triangles share an inner corner of the grid.
-    finding.count(dropped == entries.end() || dropped->second.count != 6,
-                  [&] { return "corner " + hexText(double{bad}); });
-    finding.count(!(length(scene.upper) < 100),
-                  [&] { return "bounds with " + hexText(double{bad}); });
-    finding.merge(finitePixels(scene, setup, "corner " + hexText(double{bad})));
+    run.count(dropped == entries.end() || dropped->second.count != 6, "corner ", bad);
+    run.count(!(length(scene.upper) < 100), "bounds with ", bad);
+    finitePixels(run, scene, "corner ", bad);
   }
-  return finding;
 }
 
 // An invalid ray in one lane of a packet does not change a bit of the other lanes.
-Finding badRays(const Setup& setup) {
-  Finding finding(0);
-  const Scene scene = sceneOf(sphereMesh(3, {}, 1, 0), diffuseMaterial(1));
+void badRays(Run& run) {
+  const Scene scene = sceneOf(sphereMesh(3, {}, 1), diffuseMaterial(1));
   const std::vector<ProbeRay> good = raysOnto({}, 1, 64, 28);
-  Probe expected(scene, setup, good);
-  const std::array<ProbeRay, 5> bad{ProbeRay{{kNan, 0, 0}, {0, 0, 1}},
-                                    {{0, kInf, 0}, {0, 0, 1}},
-                                    {{0, 0, 3}, {kNan, 0, -1}},
-                                    {{0, 0, 3}, {0, kInf, -1}},
-                                    {{kNan, kNan, kNan}, {kNan, kNan, kNan}}};
+  Probe expected(scene, run, good);
+  const ProbeRay bad[] = {{{kNan, 0, 0}, {0, 0, 1}},
+                          {{0, kInf, 0}, {0, 0, 1}},
+                          {{0, 0, 3}, {kNan, 0, -1}},
+                          {{0, 0, 3}, {0, kInf, -1}},
+                          {Vec3f(kNan), Vec3f(kNan)}};
 
   for (std::size_t lane = 0; lane < 16; lane += 5) {
     for (const ProbeRay& ray : bad) {
       std::vector<ProbeRay> rays = good;
       for (std::size_t i = lane; i < rays.size(); i += 16) rays[i] = ray;
-      Probe probe(scene, setup, rays);
-      for (std::size_t i = 0; i < rays.size(); ++i) {
+      Probe probe(scene, run, rays);
+      for (const auto i : indices(rays)) {
         const bool wrong = i % 16 == lane ? probe.isHit(i) : !probe.sameHit(expected, i);
-        finding.count(wrong, [&] {
-          return "lane " + std::to_string(i % 16) + " beside " + describeRay(ray);
-        });
+        run.count(wrong, "lane ", i % 16, " beside ", ray);
       }
     }
   }
-  return finding;
 }
 
 // Random bits as corners, normals, coordinates and indices.
-Finding garbage(const Setup& setup) {
-  Finding finding(0);
+void garbage(Run& run) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     std::mt19937_64 bits(seed);
-    const auto number = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(bits())); };
+    const auto number = [&] { return std::bit_cast<float>(std::uint32_t(bits())); };
 
     Mesh mesh;
     mesh.materials = {0};
     for (int i = 0; i < 60; ++i) {
       // Every second corner is valid, so that some triangles remain.
       const bool sound = i % 2 == 0;
-      const auto coordinate = [&] {
-        return sound ? static_cast<float>(bits() % 200) * 0.01f - 1 : number();
-      };
+      const auto coordinate = [&] { return sound ? float(bits() % 200) * 0.01f - 1 : number(); };
       mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
       mesh.normals.push_back({number(), number(), number()});
       mesh.uvs.push_back({number(), number()});
     }
 
     for (int i = 0; i < 200; ++i) {
-      const auto index = [&] { return static_cast<std::uint32_t>(bits() % 31) * 2; };
+      const auto index = [&] { return std::uint32_t(bits() % 31) * 2; };
       mesh.triangles.push_back({index(), index(), index()});
     }
 
@@ -229,32 +198,26 @@ Finding garbage(const Setup& setup) {
     d.cameras = {Camera{}};
     d.sky.kind = Sky::Kind::color;
     d.sky.zenith = Rgb(1.0f);
-
-    finding.merge(finitePixels(repaired(std::move(d)), setup, "seed " + std::to_string(seed)));
+    finitePixels(run, repaired(std::move(d)), "seed ", seed);
   }
-  return finding;
 }
-
-constexpr Case kDegenerateGeometryCases[] = {
-    {"H23", "degenerate triangles and slivers shade to finite pixels",
-     "repeated corner, collinear corners, heights 1e-20 and 1e-7", Runs::packets,
-     degenerateTriangles},
-    {"H24", "normals of triangles from 1e-14 to 1e14", "absolute error against double",
-     Runs::targets, tinyAndHugeTriangles},
-    {"H25", "needles: weights within the triangle, position on it, unit normals",
-     "fan of 4000 needles; the largest of the errors", Runs::packets, positionsOfNeedles},
-    {"H26", "a ground of 1e4 to 1e15 is where it is", "from 120500 above, and from just below",
-     Runs::packets, hugeNextToTiny},
-    {"H27", "corners that are not finite or enormous are dropped and counted",
-     "one such corner in a grid of 4225", Runs::packets, badVertices},
-    {"H28", "an invalid ray misses, and does not change its neighbors",
-     "NaN and infinity in one lane", Runs::packets, badRays},
-    {"H29", "random bits as geometry", "12 scenes; pixels that are not finite", Runs::packets,
-     garbage},
-};
 
 }  // namespace
 
-std::span<const Case> degenerateGeometryCases() { return kDegenerateGeometryCases; }
+const Family kDegenerateGeometryCases{
+    "degenerate geometry",
+    {{"H23", "degenerate triangles and slivers shade to finite pixels",
+      "repeated corner, collinear corners, heights 1e-20 and 1e-7", degenerateTriangles},
+     {"H24", "normals of triangles from 1e-14 to 1e14", "absolute error against double",
+      tinyAndHugeTriangles, Runs::targets},
+     {"H25", "needles: weights within the triangle, position on it, unit normals",
+      "fan of 4000 needles; the largest of the errors", positionsOfNeedles},
+     {"H26", "a ground of 1e4 to 1e15 is where it is", "from 120500 above, and from just below",
+      hugeNextToTiny},
+     {"H27", "corners that are not finite or enormous are dropped and counted",
+      "one such corner in a grid of 4225", badVertices},
+     {"H28", "an invalid ray misses, and does not change its neighbors",
+      "NaN and infinity in one lane", badRays},
+     {"H29", "random bits as geometry", "12 scenes; pixels that are not finite", garbage}}};
 
 }  // namespace whit::verify

@@ -6,7 +6,7 @@
 #include "command_line/parse_options.h"
 #include "output/digest.h"
 #include "output/open_and_warn.h"
-#include "render/renderer.h"
+#include "verify/probe.h"
 
 namespace whit::verify {
 
@@ -64,10 +64,7 @@ HashedScene::HashedScene(const PublishedHash& picture) {
 
 std::string HashedScene::hash(const RenderOptions& options) const {
   const Scene& scene = open_->scene;
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  renderer.render(chooseCamera(scene, options), film);
-  return digestOf(film.image);
+  return digestOf(pictureOf(scene, chooseCamera(scene, options), options));
 }
 
 }  // namespace whit::verify

@@ -41,86 +41,82 @@ SceneDescription room() {
 
 RenderOptions small(const Setup& setup) { return optionsOf(setup, {49, 31}); }
 
-Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options) {
+Image pictureOfRoom(const RenderOptions& options, SceneDescription description = room()) {
   const Scene scene = repaired(std::move(description));
   return pictureOf(scene, scene.cameras[0], options);
 }
 
+// Counts the pixels of the room that another description or other options change.
+void changes(Run& run, const std::string& what, SceneDescription description) {
+  countOtherPixels(run, pictureOfRoom(small(run), std::move(description)),
+                   pictureOfRoom(small(run)), what);
+}
+void changes(Run& run, const std::string& what, const RenderOptions& options) {
+  countOtherPixels(run, pictureOfRoom(options), pictureOfRoom(small(run)), what);
+}
+
 // Compares pixels of pictures of odd sizes with the same pixels traced alone.
-Finding partialPackets(const Setup& setup) {
-  Finding finding(0);
+void partialPackets(Run& run) {
   const Scene scene = repaired(room());
 
   for (const ImageSize& size : {ImageSize{1, 1}, {15, 1}, {17, 3}, {1, 257}, {16, 16}}) {
-    RenderOptions options = optionsOf(setup, size);
+    RenderOptions options = optionsOf(run, size);
     const Image whole = pictureOf(scene, scene.cameras[0], options);
 
     Numbers numbers(59);
     for (int k = 0; k < 6; ++k) {
-      const int x = static_cast<int>(numbers.in(0, size.width));
-      const int y = static_cast<int>(numbers.in(0, size.height));
+      const int x = int(numbers.in(0, size.width)), y = int(numbers.in(0, size.height));
       options.crop = Crop{x, y, x + 1, y + 1};
-      countOtherPixels(finding, pictureOf(scene, scene.cameras[0], options), whole,
-                       std::to_string(size.width) + "x" + std::to_string(size.height));
+      countOtherPixels(run, pictureOf(scene, scene.cameras[0], options), whole,
+                       concat(size.width, "x", size.height));
     }
   }
-  return finding;
 }
 
 // Traces queues of 1 to 33 rays with poison behind the last one.
-Finding poisonedLanes(const Setup& setup) {
-  Finding finding(0);
+void poisonedLanes(Run& run) {
   const Scene scene = repaired(room());
   std::vector<ProbeRay> rays = raysOnto({0, 1.5, 0}, 1, 33, 60);
   for (ProbeRay& ray : rays) ray.origin = {0, 2.5f, 0.25f};
 
-  Probe whole(scene, setup, rays);
+  Probe whole(scene, run, rays);
   const std::vector<ProbeChild> expected = whole.reflections();
   constexpr std::uint32_t kPoison = 0x7fc00000u;  // a NaN, and an index far out of range
 
   for (std::size_t n = 1; n <= rays.size(); ++n) {
-    Probe probe(scene, setup);
+    Probe probe(scene, run);
     // Fills the block behind the rays that follow with other rays.
     probe.cast(std::vector<ProbeRay>(48, rays[n - 1]));
     probe.poison(kPoison);
-    probe.cast(std::vector<ProbeRay>(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)));
+    probe.cast({rays.begin(), rays.begin() + std::ptrdiff_t(n)});
 
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       const bool same = probe.hits().triangle[i] == whole.hits().triangle[i] &&
                         probe.hits().t[i] == whole.hits().t[i] && probe.ns(i) == whole.ns(i) &&
                         probe.position(i) == whole.position(i);
-      finding.count(!same, [&] { return std::to_string(n) + " rays: " + describeRay(rays[i]); });
+      run.count(!same, n, " rays: ", rays[i]);
     }
 
     const std::vector<ProbeChild> got = probe.reflections();
-    for (std::size_t i = 0; i < got.size(); ++i) {
+    for (const auto i : indices(got)) {
       const bool same = i < expected.size() && got[i].parent == expected[i].parent &&
                         got[i].ray.direction == expected[i].ray.direction &&
                         got[i].weight == expected[i].weight;
-      finding.count(!same,
-                    [&] { return "child " + std::to_string(i) + " of " + std::to_string(n); });
+      run.count(!same, "child ", i, " of ", n);
     }
   }
-  return finding;
 }
 
-Finding packetWidths(const Setup& setup) {
-  Finding finding(0);
-  const Scene scene = repaired(room());
-  const Image single = pictureOf(scene, scene.cameras[0], small({setup.simd, 1}));
-  countOtherPixels(finding, pictureOf(scene, scene.cameras[0], small(setup)), single, "packets");
-  return finding;
-}
+void packetWidths(Run& run) { changes(run, "packets", small({run.simd, 1})); }
 
-Finding schedule(const Setup& setup) {
-  Finding finding(0);
+void schedule(Run& run) {
   const Scene scene = repaired(room());
-  const Image expected = pictureOf(scene, scene.cameras[0], small(setup));
+  const Image expected = pictureOf(scene, scene.cameras[0], small(run));
 
   const auto check = [&](const std::string& what, const auto& change) {
-    RenderOptions options = small(setup);
+    RenderOptions options = small(run);
     change(options);
-    countOtherPixels(finding, pictureOf(scene, scene.cameras[0], options), expected, what);
+    countOtherPixels(run, pictureOf(scene, scene.cameras[0], options), expected, what);
   };
 
   check("second run", [](const RenderOptions&) {});
@@ -137,16 +133,14 @@ Finding schedule(const Setup& setup) {
     options.batch = Batch::frame;
     options.threads = 2;
   });
-  return finding;
 }
 
 Vec3f scaled(const Vec3f& v, int k) {
   return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
 }
 
-Finding scaling(const Setup& setup) {
-  Finding finding(0);
-  const Image expected = pictureOfRoom(room(), small(setup));
+void scaling(Run& run) {
+  const Image expected = pictureOfRoom(small(run));
   for (const int k : {-20, -3, 1, 20}) {
     SceneDescription d = room();
     for (Mesh& mesh : d.objects[0].meshes) {
@@ -162,16 +156,13 @@ Finding scaling(const Setup& setup) {
 
     d.cameras[0].eye = scaled(d.cameras[0].eye, k);
     d.cameras[0].at = scaled(d.cameras[0].at, k);
-    countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected,
-                     "times 2^" + std::to_string(k));
+    countOtherPixels(run, pictureOfRoom(small(run), std::move(d)), expected, concat("times 2^", k));
   }
-  return finding;
 }
 
 // The room has no glass here, because the winding decides whether a ray enters a surface or leaves
 // it.
-Finding mirroring(const Setup& setup) {
-  Finding finding(0);
+void mirroring(Run& run) {
   const auto opaque = [] {
     SceneDescription d = room();
     for (Material& m : d.materials) m.transmission = Rgb(0.0f);
@@ -187,86 +178,61 @@ Finding mirroring(const Setup& setup) {
   d.cameras[0].eye.x = -d.cameras[0].eye.x;
   d.cameras[0].at.x = -d.cameras[0].at.x;
 
-  countOtherPixels(finding, pictureOfRoom(opaque(), small(setup)),
-                   pictureOfRoom(std::move(d), small(setup)), "mirrored", true);
-  return finding;
+  countOtherPixels(run, pictureOfRoom(small(run), opaque()),
+                   pictureOfRoom(small(run), std::move(d)), "mirrored", true);
 }
 
-// Notes the relative change of each pixel.
-Finding relativeChange(const Image& a, const Image& b, double bound) {
-  Finding finding(bound);
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const double largest = std::max(1e-6, static_cast<double>(maxComponent(a.pixels[i])));
-    const double change = static_cast<double>(maxComponent(abs(a.pixels[i] - b.pixels[i])));
-    finding.note(change / largest, [&] { return "pixel " + std::to_string(i); });
-  }
-  return finding;
-}
-
-Finding lightOrder(const Setup& setup) {
+void lightOrder(Run& run) {
+  // At each surface of a path one sum is in another order.
+  run.boundBy(16 * 0x1p-24);
   SceneDescription d = room();
   std::swap(d.lights[0], d.lights[1]);
-  // At each surface of a path one sum is in another order.
-  return relativeChange(pictureOfRoom(room(), small(setup)),
-                        pictureOfRoom(std::move(d), small(setup)), 16 * 0x1p-24);
-}
 
-Finding meshOrder(const Setup& setup) {
-  Finding finding(0);
-  const Image expected = pictureOfRoom(room(), small(setup));
-
-  SceneDescription d = room();
-  std::reverse(d.objects[0].meshes.begin(), d.objects[0].meshes.end());
-  for (Mesh& mesh : d.objects[0].meshes) {
-    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  const Image a = pictureOfRoom(small(run)), b = pictureOfRoom(small(run), std::move(d));
+  for (const auto i : indices(a.pixels)) {
+    const double largest = std::max(1e-6, double{maxComponent(a.pixels[i])});
+    run.note(maxComponent(abs(a.pixels[i] - b.pixels[i])) / largest, "pixel ", i);
   }
-
-  countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected, "reversed");
-  return finding;
 }
 
-Finding unreachableObject(const Setup& setup) {
-  Finding finding(0);
-  const Image expected = pictureOfRoom(room(), small(setup));
+void meshOrder(Run& run) {
+  SceneDescription d = room();
+  std::ranges::reverse(d.objects[0].meshes);
+  for (Mesh& mesh : d.objects[0].meshes) std::ranges::reverse(mesh.triangles);
+  changes(run, "reversed", std::move(d));
+}
+
+void unreachableObject(Run& run) {
   SceneDescription d = room();
   d.objects[0].meshes.push_back(sphereMesh(3, {30, 20, -10}, 2, 1));
-  countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected,
-                   "with a far sphere");
-  return finding;
+  changes(run, "with a far sphere", std::move(d));
 }
 
-Finding superfluousEffects(const Setup& setup) {
-  Finding finding(0);
-  RenderOptions all = small(setup);
+void superfluousEffects(Run& run) {
+  RenderOptions all = small(run);
   all.effects = EffectChoice::all;
-  countOtherPixels(finding, pictureOfRoom(room(), all), pictureOfRoom(room(), small(setup)),
-                   "all effects");
-  return finding;
+  changes(run, "all effects", all);
 }
-
-constexpr Case kInvarianceCases[] = {
-    {"H59", "a pixel traced alone has the bits of the whole image",
-     "images of 1x1, 15x1, 17x3, 1x257, 16x16", Runs::packets, partialPackets},
-    {"H59a", "dead lanes do not matter", "queues of 1 to 33 rays with NaN behind them",
-     Runs::packets, poisonedLanes},
-    {"H59b", "every packet width gives the bits of single rays", "room with mirror and glass",
-     Runs::packets, packetWidths},
-    {"H60", "the same bits for any threads, tiles, queues, batches", "room with mirror and glass",
-     Runs::targets, schedule},
-    {"H61", "scaled by a power of two: the same bits", "2^-20 to 2^20", Runs::packets, scaling},
-    {"H61b", "mirrored: the mirrored picture, bit for bit", "x negated, without glass",
-     Runs::packets, mirroring},
-    {"H61d", "lights in another order", "relative change", Runs::targets, lightOrder},
-    {"H61e", "meshes and triangles in another order: the same bits", "both reversed", Runs::packets,
-     meshOrder},
-    {"H61f", "an object that no ray reaches: the same bits", "far sphere behind a wall",
-     Runs::packets, unreachableObject},
-    {"H61g", "effects that the scene has none of: the same bits", "a plan with every effect",
-     Runs::packets, superfluousEffects},
-};
 
 }  // namespace
 
-std::span<const Case> invarianceCases() { return kInvarianceCases; }
+const Family kInvarianceCases{
+    "exact laws",
+    {{"H59", "a pixel traced alone has the bits of the whole image",
+      "images of 1x1, 15x1, 17x3, 1x257, 16x16", partialPackets},
+     {"H59a", "dead lanes do not matter", "queues of 1 to 33 rays with NaN behind them",
+      poisonedLanes},
+     {"H59b", "every packet width gives the bits of single rays", "room with mirror and glass",
+      packetWidths},
+     {"H60", "the same bits for any threads, tiles, queues, batches", "room with mirror and glass",
+      schedule, Runs::targets},
+     {"H61", "scaled by a power of two: the same bits", "2^-20 to 2^20", scaling},
+     {"H61b", "mirrored: the mirrored picture, bit for bit", "x negated, without glass", mirroring},
+     {"H61d", "lights in another order", "relative change", lightOrder, Runs::targets},
+     {"H61e", "meshes and triangles in another order: the same bits", "both reversed", meshOrder},
+     {"H61f", "an object that no ray reaches: the same bits", "far sphere behind a wall",
+      unreachableObject},
+     {"H61g", "effects that the scene has none of: the same bits", "a plan with every effect",
+      superfluousEffects}}};
 
 }  // namespace whit::verify

@@ -10,8 +10,7 @@ namespace whit::verify {
 namespace {
 
 // Lights on the surface and up to 1e-5 above it, over a point that a ray hits exactly.
-Finding lightsAtNoDistance(const Setup& setup) {
-  Finding finding(0);
+void lightsAtNoDistance(Run& run) {
   for (const float height : {0.0f, 1e-42f, 1e-30f, 1e-20f, 1e-10f, 1e-5f}) {
     SceneBuilder builder;
     Material m = diffuseMaterial(1);
@@ -19,26 +18,21 @@ Finding lightsAtNoDistance(const Setup& setup) {
     builder.add(m);
     builder.add(floorAt(0, 1, 0));
 
-    Light light = lightAt({0, height, 0}, 1);
-    light.radius = 1e-3f;
-    builder.description.lights = {light};
+    builder.description.lights = {lightAt({0, height, 0}, 1)};
+    builder.description.lights[0].radius = 1e-3f;
     const Scene scene = builder.build();
 
     // The center of the middle pixel shows the point below the light.
-    const RenderOptions options = optionsOf(setup, {33, 33});
     // I / radius^2 (kd / pi + the lobe's peak at normal incidence, 0.5 / (4 pi alpha^2) with
     // roughness 0.5) is an upper bound on the reflected light.
     const float most = 1e6f * (0.32f + 0.5f / (12.5f * 0.0625f));
-    for (const Rgb& pixel : pictureOf(scene, lookingDown(), options).pixels) {
-      finding.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > most,
-                    [&] { return "height " + hexText(double{height}); });
+    for (const Rgb& pixel : pictureOf(scene, lookingDown(), optionsOf(run, {33, 33})).pixels) {
+      run.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > most, "height ", height);
     }
   }
-  return finding;
 }
 
-Finding lightInABox(const Setup& setup) {
-  Finding finding(0);
+void lightInABox(Run& run) {
   SceneBuilder builder;
   const auto gray = builder.add(diffuseMaterial(1));
   builder.add(box({-1, 0, -1}, {1, 2, 1}, gray));
@@ -48,10 +42,9 @@ Finding lightInABox(const Setup& setup) {
   const Scene scene = builder.build();
 
   const Camera camera{.eye = {3, 4, 5}, .at = {0, 1, 0}};
-  for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {48, 36})).pixels) {
-    finding.count(!(pixel == Rgb(0.0f)), [&] { return hexText(pixel); });
+  for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(run, {48, 36})).pixels) {
+    run.count(!(pixel == Rgb()), pixel);
   }
-  return finding;
 }
 
 // Coordinates that are too large for fractions of a texel, or not numbers, count as 0.
@@ -59,12 +52,10 @@ float tame(float s) { return std::fabs(s) <= 0x1p20f ? s : 0.0f; }
 
 // Looks up coordinates through the kernel in a row of texels that are black and white in turn. The
 // coordinates in both halves of `uvs` must have the same colors.
-Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Setup& setup) {
-  Finding finding(0);
+void textureAt(Run& run, const std::vector<Vec2f>& uvs, Wrap wrap, int width) {
   SceneBuilder builder;
 
   std::vector<std::uint32_t> texels;
-  texels.reserve(static_cast<std::size_t>(width));
   for (int i = 0; i < width; ++i) texels.push_back(i % 2 ? 0x3fffffffu : 0u);
 
   Texture texture = makeTexture(TexelFormat::color, width, 1, texels);
@@ -75,31 +66,26 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
 
   Mesh mesh;
   mesh.materials = {0};
-  for (std::uint32_t i = 0; i < uvs.size(); ++i) {
-    const float z = static_cast<float>(i);  // coincident triangles would be merged
-    mesh.positions.insert(mesh.positions.end(), {{0, 0, z}, {1, 0, z}, {0, 1, z}});
-    mesh.uvs.insert(mesh.uvs.end(), 3, uvs[i]);
-    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  for (const Vec2f& uv : uvs) {
+    const float z = float(mesh.triangles.size());  // coincident triangles would be merged
+    addTriangle(mesh, {{0, 0, z}, {1, 0, z}, {0, 1, z}});
+    mesh.uvs.insert(mesh.uvs.end(), 3, uv);
   }
   builder.add(mesh);
 
   const Scene scene = repaired(builder.describe());
-  Probe probe(scene, setup);
-  probe.hitEach(static_cast<std::uint32_t>(uvs.size()));
+  Probe probe(scene, run);
+  probe.hitEach(size32(uvs));
 
-  for (std::size_t i = 0; i < uvs.size(); ++i) {
+  for (const auto i : indices(uvs)) {
     const float got = probe.surfels().diffuse.x[i];
     const std::size_t half = uvs.size() / 2;
     const float wanted = probe.surfels().diffuse.x[i < half ? i + half : i];
-    finding.count(!(got >= 0 && got <= 1 && got == wanted), [&] {
-      return "uv " + hexText(double{uvs[i].x}) + " " + hexText(double{uvs[i].y});
-    });
+    run.count(!(got >= 0 && got <= 1 && got == wanted), "uv ", uvs[i].x, " ", uvs[i].y);
   }
-  return finding;
 }
 
-Finding oddTextureCoordinates(const Setup& setup) {
-  Finding finding(0);
+void oddTextureCoordinates(Run& run) {
   std::vector<Vec2f> uvs;
   for (const float x : {0.0f, -0.0f, -1e-9f, -1e-30f, 1e-40f, 1 - 0x1p-24f, 1.0f, 1 + 0x1p-23f,
                         1e3f, 1e6f, 8.4e6f, 2e9f, 5e9f, 1e30f, -1e30f, 3e38f, kInf, -kInf, kNan}) {
@@ -110,47 +96,43 @@ Finding oddTextureCoordinates(const Setup& setup) {
 
   // The second half holds the tame coordinates, whose colors the first half must have.
   const std::size_t count = uvs.size();
-  for (std::size_t i = 0; i < count; ++i) uvs.push_back({tame(uvs[i].x), tame(uvs[i].y)});
+  for (const auto i : indices(count)) uvs.push_back({tame(uvs[i].x), tame(uvs[i].y)});
 
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const int width : {1, 2, 3, 5, 64}) {
-      finding.merge(textureAt(uvs, wrap, width, setup));
+      textureAt(run, uvs, wrap, width);
     }
   }
-  return finding;
 }
 
 // Compares codes with the formula in double; the error is the distance beyond rounding, in codes.
-Finding srgbCodes(const Setup&) {
-  Finding finding(0.01);
+void srgbCodes(Run& run) {
+  run.boundBy(0.01);
   Numbers numbers(72);
   constexpr std::size_t kValues = 1 << 16;
   ColumnStore<RadianceColumns> radiance(kValues, FeatureSet());
-  for (std::size_t i = 0; i < kValues; ++i) {
+  for (const auto i : indices(kValues)) {
     const double x = i % 2 ? numbers.in(0, 1) : std::pow(10, numbers.in(-6, 0));
-    radiance->rgb.x[i] = radiance->rgb.y[i] = radiance->rgb.z[i] = static_cast<float>(x);
+    radiance->rgb.set(i, Rgb(float(x)));
   }
 
   std::vector<std::uint32_t> codes(kValues + 16);
   simd::encodeDisplay({.radiance = *radiance, .n = kValues, .codes = codes.data()});
 
-  for (std::size_t i = 0; i < kValues; ++i) {
-    const double x = static_cast<double>(radiance->rgb.x[i]);
+  for (const auto i : indices(kValues)) {
+    const double x = radiance->rgb.x[i];
     const double exact = 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
-    const double off = std::fabs(exact - static_cast<double>(codes[i] & 255u));
-    finding.note(std::max(0.0, off - 0.5), [&] { return hexText(x); });
+    const double off = std::fabs(exact - (codes[i] & 255u));
+    run.note(std::max(0.0, off - 0.5), x);
   }
-  return finding;
 }
 
 // Compares directions of the kernel with double, from the narrowest to the widest view, and far
 // away.
-Finding cameraDirections(const Setup&) {
-  Finding finding(4 * 0x1p-24);
+void cameraDirections(Run& run) {
+  run.boundBy(4 * 0x1p-24);
   std::vector<std::uint32_t> pixels;
-  for (int y = 0; y < 32; ++y) {
-    for (int x = 0; x < 32; ++x) pixels.push_back(packedPixel(x * 31, y * 17));
-  }
+  forEachPixel(32, 32, [&](int x, int y) { pixels.push_back(packedPixel(x * 31, y * 17)); });
 
   for (const float fov : {1e-3f, 1.0f, 45.0f, 120.0f, 179.9f}) {
     for (const Vec3f& eye : {Vec3f{0, 0, 5}, {1e6f, -2e6f, 5e5f}}) {
@@ -158,56 +140,49 @@ Finding cameraDirections(const Setup&) {
       const CameraFrame frame = makeCameraFrame(camera, 1024, 576);
       const ColumnStore<RayColumns> columns = raysThrough(pixels, frame);
 
-      for (std::size_t i = 0; i < pixels.size(); ++i) {
+      for (const auto i : indices(pixels)) {
         const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;
         const Vec3d got(columns->dir.at(i));
-        finding.note(length(got - exact), [&] {
-          return "fov " + hexText(double{fov}) + ", pixel " + std::to_string(pixels[i]);
-        });
+        run.note(length(got - exact), "fov ", fov, ", pixel ", pixels[i]);
       }
     }
   }
-  return finding;
 }
 
-Finding equalSamples(const Setup& setup) {
-  Finding finding(0);
+void equalSamples(Run& run) {
   SceneBuilder builder;
   builder.description.sky.kind = Sky::Kind::color;
   builder.description.sky.zenith = {0.1f, 1.0f / 3, 7e-5f};
-  builder.add(floorAt(-100, 1, builder.add(diffuseMaterial(1))));
+  builder.add(floorAt(-100, 1), diffuseMaterial(1));
   const Scene scene = builder.build();
 
   const Camera up{.eye = {0, 0, 0}, .at = {0, 1, 0}};
   for (const int spp : {1, 2, 3, 5, 16, 1000}) {
-    RenderOptions options = optionsOf(setup, {3, 2});
+    RenderOptions options = optionsOf(run, {3, 2});
     options.spp = spp;
     for (const Rgb& pixel : pictureOf(scene, up, options).pixels) {
-      finding.count(!(pixel == scene.sky.zenith), [&] { return std::to_string(spp) + " samples"; });
+      run.count(!(pixel == scene.sky.zenith), spp, " samples");
     }
   }
-  return finding;
 }
-
-constexpr Case kLightAndFilmCases[] = {
-    {"H65", "lights at no distance", "on the floor and up to 1e-5 above it; finite and bounded",
-     Runs::packets, lightsAtNoDistance},
-    {"H66", "a light in a closed box lights nothing outside", "box above a floor; lit pixels",
-     Runs::packets, lightInABox},
-    {"H68", "texture coordinates that are far away, tiny, or not numbers",
-     "19 values, every wrap mode, textures 1 to 64 wide; colors outside [0, 1] or untamed",
-     Runs::targets, oddTextureCoordinates},
-    {"H72", "sRGB codes", "65536 values; codes beyond half a code from the formula in double",
-     Runs::targets, srgbCodes},
-    {"H75", "directions from the camera", "fov 0.001 to 179.9 degrees, at 2e6 too; length of error",
-     Runs::targets, cameraDirections},
-    {"H76", "the mean of equal samples is the sample", "1 to 1000 samples of a plain sky",
-     Runs::targets, equalSamples},
-};
 
 }  // namespace
 
-std::span<const Case> lightAndFilmCases() { return kLightAndFilmCases; }
+const Family kLightAndFilmCases{
+    "lights, textures, film, camera",
+    {{"H65", "lights at no distance", "on the floor and up to 1e-5 above it; finite and bounded",
+      lightsAtNoDistance},
+     {"H66", "a light in a closed box lights nothing outside", "box above a floor; lit pixels",
+      lightInABox},
+     {"H68", "texture coordinates that are far away, tiny, or not numbers",
+      "19 values, every wrap mode, textures 1 to 64 wide; colors outside [0, 1] or untamed",
+      oddTextureCoordinates, Runs::targets},
+     {"H72", "sRGB codes", "65536 values; codes beyond half a code from the formula in double",
+      srgbCodes, Runs::targets},
+     {"H75", "directions from the camera",
+      "fov 0.001 to 179.9 degrees, at 2e6 too; length of error", cameraDirections, Runs::targets},
+     {"H76", "the mean of equal samples is the sample", "1 to 1000 samples of a plain sky",
+      equalSamples, Runs::targets}}};
 
 }  // namespace whit::verify

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -39,7 +38,7 @@ struct Row {
 
   // A case without a bound cannot be broken.
   bool isReportedOnly() const { return std::isinf(finding.bound()); }
-  const char* result() const {
+  std::string result() const {
     if (!finding.holds()) return "BROKEN";
     return isReportedOnly() ? "reported" : "yes";
   }
@@ -50,15 +49,14 @@ struct Row {
 // machine that each case runs with.
 std::vector<Row> runCatalogue(const std::vector<std::string>& only, Progress* progress) {
   std::vector<Row> rows;
-  const std::vector<Family> catalogue = families();
+  const std::vector<Family>& catalogue = families();
   std::size_t count = 0, done = 0;
   for (const Family& family : catalogue) count += family.cases.size();
 
   for (const Family& family : catalogue) {
     for (const Case& c : family.cases) {
-      reportProgress(progress, std::string(c.name),
-                     static_cast<double>(done++) / static_cast<double>(count));
-      if (!only.empty() && std::find(only.begin(), only.end(), c.name) == only.end()) continue;
+      reportProgress(progress, std::string(c.name), double(done++) / double(count));
+      if (!only.empty() && !contains(only, c.name)) continue;
       for (const Setup& setup : setupsOf(c.runs)) {
         rows.push_back({family.name, &c, setup, runCase(c, setup)});
       }
@@ -88,20 +86,15 @@ std::string numberText(double value) { return std::isinf(value) ? "-" : formatte
 
 // "205 cases in 3075 runs: 199 hold, 0 broken, 6 reported without a bound".
 std::string summaryOf(const std::vector<Row>& rows) {
-  std::size_t held = 0, broken = 0, reported = 0;
-  for (const Row& row : worstRows(rows)) {
-    if (!row.finding.holds()) {
-      ++broken;
-    } else if (row.isReportedOnly()) {
-      ++reported;
-    } else {
-      ++held;
-    }
-  }
+  const std::vector<Row> worst = worstRows(rows);
+  const auto count = [&](const std::string& result) {
+    return std::ranges::count(worst, result, &Row::result);
+  };
+  const auto reported = count("reported");
 
-  std::string text = formatted("%zu cases in %zu runs: %zu hold, %zu broken",
-                               held + broken + reported, rows.size(), held, broken);
-  if (reported > 0) text += formatted(", %zu reported without a bound", reported);
+  std::string text = formatted("%zu cases in %zu runs: %td hold, %td broken", worst.size(),
+                               rows.size(), count("yes"), count("BROKEN"));
+  if (reported > 0) text += formatted(", %td reported without a bound", reported);
   return text;
 }
 
@@ -110,8 +103,8 @@ std::string tableOf(const std::vector<Row>& rows) {
   for (const Row& row : worstRows(rows)) {
     text += formatted("%-6s %-11s %-11s %-9s %-6s %-7s %s\n", row.hardCase->name.data(),
                       numberText(row.finding.worst()).c_str(),
-                      numberText(row.finding.bound()).c_str(), row.result(), row.setup.simd.c_str(),
-                      row.packet().c_str(), row.hardCase->title.data());
+                      numberText(row.finding.bound()).c_str(), row.result().c_str(),
+                      row.setup.simd.c_str(), row.packet().c_str(), row.hardCase->title.data());
     if (!row.finding.holds()) text += "       input: " + row.finding.input() + "\n";
   }
   return text + summaryOf(rows) + "\n";
@@ -123,7 +116,7 @@ Json jsonOf(const Machine& machine, const std::vector<Row>& rows) {
   Json cases = Json::array();
   for (const Row& row : rows) {
     const double worst = row.finding.worst(), bound = row.finding.bound();
-    const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
     cases.push_back({{"case", row.hardCase->name},
                      {"title", row.hardCase->title},
                      {"construction", row.hardCase->construction},
@@ -177,7 +170,7 @@ std::vector<std::filesystem::path> hardScenes() {
     if (!scenes.empty()) break;
   }
 
-  std::sort(scenes.begin(), scenes.end());
+  std::ranges::sort(scenes);
   return scenes;
 }
 
@@ -195,8 +188,7 @@ std::vector<HardScene> renderHardScenes(Progress* progress) {
   std::vector<HardScene> scenes;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
-    reportProgress(progress, name,
-                   static_cast<double>(scenes.size()) / static_cast<double>(files.size()));
+    reportProgress(progress, name, double(scenes.size()) / double(files.size()));
 
     Warnings warnings;
     const Scene scene =
@@ -213,12 +205,11 @@ void writeSheet(const std::string& path, const std::vector<HardScene>& scenes) {
   Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
 
   for (int i = 0; i < count; ++i) {
-    const Image& picture = scenes[static_cast<std::size_t>(i)].picture;
+    const Image& picture = scenes[i].picture;
     const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
     const int top = kSheetGap + i / kColumns * (kHeight + kSheetGap);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
-    }
+    forEachPixel(kWidth, kHeight,
+                 [&](int x, int y) { sheet.at(left + x, top + y) = picture.at(x, y); });
   }
 
   const cli::WriteScope scope;
@@ -233,13 +224,7 @@ std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
   }
 
   for (const std::string& list : lists) {
-    std::istringstream words(list);
-    for (std::string name; std::getline(words, name, ',');) {
-      if (std::find(known.begin(), known.end(), name) == known.end()) {
-        throwUsage("there is no case '" + name + "'" + didYouMean(name, known));
-      }
-      names.push_back(name);
-    }
+    for (const std::size_t i : indicesOf(list, known, "case")) names.push_back(known[i]);
   }
   return names;
 }
@@ -254,14 +239,13 @@ std::vector<PublishedHash> picturesToHash(const std::string& size,
     sizes.emplace_back(picture.size);
     if (picture.size != size) continue;
     known.emplace_back(picture.scene.substr(0, picture.scene.find(' ')));
-    const bool isAsked = std::find(scenes.begin(), scenes.end(), known.back()) != scenes.end();
-    if (scenes.empty() || isAsked) pictures.push_back(picture);
+    if (scenes.empty() || contains(scenes, known.back())) pictures.push_back(picture);
   }
 
   refuseIf(known.empty(), "--hashes takes " + sizes[0] + " or " + sizes[1] + ", not " + size);
   for (const std::string& scene : scenes) {
-    const bool isKnown = std::find(known.begin(), known.end(), scene) != known.end();
-    refuseIf(!isKnown, "no hash of '" + scene + "' is published" + didYouMean(scene, known));
+    refuseIf(!contains(known, scene),
+             "no hash of '" + scene + "' is published" + didYouMean(scene, known));
   }
   return pictures;
 }
@@ -377,7 +361,7 @@ int run(const std::vector<std::string>& words) {
   }
 
   const bool allHold =
-      std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.finding.holds(); });
+      std::ranges::all_of(rows, [](const Row& row) { return row.finding.holds(); });
   return static_cast<int>(allHold ? ExitStatus::done : ExitStatus::checkFailed);
 }
 

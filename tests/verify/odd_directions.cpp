@@ -7,39 +7,34 @@ namespace whit::verify {
 namespace {
 
 // Casts the same rays along each direction; all must hit the same triangles.
-Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
-  Finding finding(0);
+void alikeAlong(Run& run, const std::vector<Vec3f>& directions) {
   const Scene scene = sceneOf(grid(), diffuseMaterial(1));
   std::vector<std::uint32_t> expected;
   for (const Vec3f& direction : directions) {
     std::vector<ProbeRay> rays;
     // The rays hit corners, edges and centers inside the border.
-    for (int y = -62; y <= 62; y += 3) {
-      for (int x = -62; x <= 62; ++x) {
-        rays.push_back({Vec3f(Vec3d(x * 0.5, 16, y * 0.5)), direction});
-      }
-    }
+    forEachPixel(125, 42, [&](int x, int y) {
+      rays.push_back({Vec3f(Vec3d((x - 62) * 0.5, 16, (3 * y - 62) * 0.5)), direction});
+    });
 
-    Probe probe(scene, setup, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    Probe probe(scene, run, rays);
+    for (const auto i : indices(rays)) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       if (expected.size() < rays.size()) expected.push_back(triangle);
-      finding.count(triangle == kMiss || triangle != expected[i], described(rays[i]));
+      run.count(triangle == kMiss || triangle != expected[i], rays[i]);
     }
   }
-  return finding;
 }
 
-Finding axisAligned(const Setup& setup) {
-  return alikeAlong({{0.0f, -1, 0.0f}, {-0.0f, -1, -0.0f}, {0.0f, -1, -0.0f}}, setup);
+void axisAligned(Run& run) {
+  alikeAlong(run, {{0.0f, -1, 0.0f}, {-0.0f, -1, -0.0f}, {0.0f, -1, -0.0f}});
 }
 
-Finding denormalComponents(const Setup& setup) {
-  return alikeAlong({{0.0f, -1, 0.0f}, {1e-40f, -1, 0.0f}, {-1e-40f, -1, 1e-42f}}, setup);
+void denormalComponents(Run& run) {
+  alikeAlong(run, {{0.0f, -1, 0.0f}, {1e-40f, -1, 0.0f}, {-1e-40f, -1, 1e-42f}});
 }
 
-Finding coplanarRays(const Setup& setup) {
-  Finding finding(0);
+void coplanarRays(Run& run) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
@@ -57,27 +52,21 @@ Finding coplanarRays(const Setup& setup) {
                     Vec3f(Vec3d{std::cos(turn), std::sin(turn), 0})});
   }
 
-  countHits(finding, Probe(scene, setup, rays), false);
-  return finding;
+  countHits(run, Probe(scene, run, rays), false);
 }
 
 // Needles with edges of 11.2, 9.7 and 1.4 at a distance of 600, seen almost along their plane. The
 // error is the distance of the hit beyond the triangle's bounds, relative to its size.
-Finding nearlyCoplanar(const Setup& setup) {
-  Finding finding(kNoBound);
+void nearlyCoplanar(Run& run) {
+  run.boundBy(kNoBound);
   Numbers numbers(22);
   std::vector<ProbeRay> rays;
   Mesh mesh;
-  constexpr std::uint32_t kNeedles = 300;
-
-  for (std::uint32_t i = 0; i < kNeedles; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const Vec3d n = numbers.direction(), along = normalized(cross(n, numbers.direction()));
     const Vec3d across = cross(n, along), at = numbers.direction() * 600.0;
-    mesh.positions.emplace_back(at);
-    mesh.positions.emplace_back(at + along * 11.2);
-    mesh.positions.emplace_back(at + along * 9.7 + across * 0.9);
-    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-
+    addTriangle(mesh,
+                {Vec3f(at), Vec3f(at + along * 11.2), Vec3f(at + along * 9.7 + across * 0.9)});
     for (int k = 0; k < 8; ++k) {
       const double angle = std::pow(10, -numbers.in(2, 7));
       const Vec3d target = at + along * numbers.in(4, 10) + across * numbers.in(0, 0.3);
@@ -87,56 +76,50 @@ Finding nearlyCoplanar(const Setup& setup) {
   }
 
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup, rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  Probe probe(scene, run, rays);
+  for (const auto i : indices(rays)) {
     if (!probe.isHit(i)) {
-      finding.note(0, described(rays[i]));
+      run.note(0, rays[i]);
       continue;
     }
 
     const Corners c = worldCorners(scene, probe.hits().triangle[i], kNoHit);
     const Vec3d point =
-        Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * static_cast<double>(probe.hits().t[i]);
+        Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * double{probe.hits().t[i]};
     const Vec3d low = min(c[0], min(c[1], c[2])), high = max(c[0], max(c[1], c[2]));
     const Vec3d beyond = max(max(low - point, point - high), Vec3d{});
-    finding.note(length(beyond) / 11.2, described(rays[i]));
+    run.note(length(beyond) / 11.2, rays[i]);
   }
-  return finding;
 }
 
 // Every packet width hits the same one of two coincident squares.
-Finding coplanarOverlap(const Setup& setup) {
-  Finding finding(0);
+void coplanarOverlap(Run& run) {
   SceneBuilder builder;
-  builder.add(floorAt(0, 1, builder.add(diffuseMaterial(1))));
-  builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
+  builder.add(floorAt(0, 1), diffuseMaterial(1));
+  builder.add(floorAt(0, 1), diffuseMaterial(0.5f));
   const Scene scene = builder.build();
 
   const std::vector<ProbeRay> rays = raysOnto({}, 0.9, 2000, 30);
-  Probe expected(scene, {setup.simd, 1}, rays);
-  Probe probe(scene, setup, rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    finding.count(probe.hits().triangle[i] != expected.hits().triangle[i], described(rays[i]));
+  Probe expected(scene, {run.simd, 1}, rays);
+  Probe probe(scene, run, rays);
+  for (const auto i : indices(rays)) {
+    run.count(probe.hits().triangle[i] != expected.hits().triangle[i], rays[i]);
   }
-  return finding;
 }
-
-constexpr Case kOddDirectionCases[] = {
-    {"H19", "axis-aligned rays, with +0 and with -0",
-     "grid of 64 x 64 from above onto its corners, edges and centers", Runs::packets, axisAligned},
-    {"H20", "denormal components count as zero", "the same with 1e-40", Runs::packets,
-     denormalComponents},
-    {"H21", "a ray in the plane of a triangle does not hit it", "one triangle, 504 rays",
-     Runs::packets, coplanarRays},
-    {"H22", "how far hits lie beside needles seen edge on (reported only)",
-     "angles of 1e-2 to 1e-7; distance of the point by t to the triangle's box, over its length",
-     Runs::packets, nearlyCoplanar},
-    {"H30", "the same one of two coincident squares wins for every packet width",
-     "2000 rays against single rays", Runs::packets, coplanarOverlap},
-};
 
 }  // namespace
 
-std::span<const Case> oddDirectionCases() { return kOddDirectionCases; }
+const Family kOddDirectionCases{
+    "odd directions",
+    {{"H19", "axis-aligned rays, with +0 and with -0",
+      "grid of 64 x 64 from above onto its corners, edges and centers", axisAligned},
+     {"H20", "denormal components count as zero", "the same with 1e-40", denormalComponents},
+     {"H21", "a ray in the plane of a triangle does not hit it", "one triangle, 504 rays",
+      coplanarRays},
+     {"H22", "how far hits lie beside needles seen edge on (reported only)",
+      "angles of 1e-2 to 1e-7; distance of the point by t to the triangle's box, over its length",
+      nearlyCoplanar},
+     {"H30", "the same one of two coincident squares wins for every packet width",
+      "2000 rays against single rays", coplanarOverlap}}};
 
 }  // namespace whit::verify

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <tuple>
 
 #include "inspect/reference_frame.h"
 #include "render/steps.h"
@@ -79,11 +80,12 @@ void Probe::load(const std::vector<ProbeRay>& rays) {
   chunk_.children = *children_;
 
   const RayColumns& c = *rays_;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  for (const auto i : indices(rays)) {
     const auto& [o, d, media] = rays[i];
     test::setRay(c, i, o, d);
-    c.weight.x[i] = c.weight.y[i] = c.weight.z[i] = c.throughput[i] = 1;
-    c.parent[i] = static_cast<std::uint32_t>(i);
+    c.weight.set(i, Rgb(1.0f));
+    c.throughput[i] = 1;
+    c.parent[i] = std::uint32_t(i);
     c.media[i] = media;
     hits_->triangle[i] = hits_->instance[i] = kMiss;
   }
@@ -116,10 +118,10 @@ void Probe::hitEach(std::uint32_t count) {
 }
 
 bool Probe::sameHit(const Probe& other, std::size_t i) const {
-  const HitColumns a = *hits_, b = *other.hits_;
-  return a.triangle[i] == b.triangle[i] &&
-         (!isHit(i) || (a.instance[i] == b.instance[i] && a.t[i] == b.t[i] && a.u[i] == b.u[i] &&
-                        a.v[i] == b.v[i]));
+  const auto hit = [i](const HitColumns& h) {
+    return std::tuple(h.triangle[i], h.instance[i], h.t[i], h.u[i], h.v[i]);
+  };
+  return isHit(i) ? hit(*hits_) == hit(*other.hits_) : !other.isHit(i);
 }
 
 void Probe::cast(const std::vector<ProbeRay>& rays) {
@@ -140,22 +142,20 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
 
 void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns) {
   const SurfelColumns& s = *surfels_;
-  s.pos.x[i] = s.pos.y[i] = s.pos.z[i] = 0;
+  s.pos.set(i, {});
   s.ng.set(i, ng);
   s.ns.set(i, ns);
   s.offset[i] = 0x1p-19f;
   s.viewOffset[i] = 0x1p-20f;
 
-  s.diffuse.x[i] = s.diffuse.y[i] = s.diffuse.z[i] = 1;
-  s.specular.x[i] = s.specular.y[i] = s.specular.z[i] = 0;
+  s.diffuse.set(i, Rgb(1.0f));
+  s.specular.set(i, {});
   s.alpha[i] = 1;
   s.coverage[i] = 1;
 
   if (chunk_.has(Feature::occlusionMaps)) s.occlusion[i] = 1;
-  if (chunk_.has(Feature::mirrorMaps)) s.mirror.x[i] = s.mirror.y[i] = s.mirror.z[i] = 1;
-  if (chunk_.has(Feature::transmissionMaps)) {
-    s.transmission.x[i] = s.transmission.y[i] = s.transmission.z[i] = 1;
-  }
+  if (chunk_.has(Feature::mirrorMaps)) s.mirror.set(i, Rgb(1.0f));
+  if (chunk_.has(Feature::transmissionMaps)) s.transmission.set(i, Rgb(1.0f));
 
   s.material[i] = material;
   s.flags[i] = kEntering;
@@ -173,12 +173,10 @@ std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel) {
   chunk_.childCount = 0;
   run(kernel);
 
-  std::vector<ProbeChild> result(chunk_.childCount);
+  std::vector<ProbeChild> result;
   const RayColumns& c = *children_;
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].ray = {c.org.at(i), c.dir.at(i), c.media[i]};
-    result[i].weight = c.weight.at(i);
-    result[i].parent = c.parent[i];
+  for (const auto i : indices(chunk_.childCount)) {
+    result.push_back({{c.org.at(i), c.dir.at(i), c.media[i]}, c.weight.at(i), c.parent[i]});
   }
   return result;
 }
@@ -264,12 +262,7 @@ std::array<Image, 2> picturesOf(const Scene& scene, const Camera& camera,
 }
 
 void countHits(Finding& finding, const Probe& probe, bool mustHit) {
-  for (std::size_t i = 0; i < probe.size(); ++i) {
-    finding.count(probe.isHit(i) != mustHit, [&] {
-      const ProbeRay ray = probe.ray(i);
-      return hexText(ray.origin, ray.direction);
-    });
-  }
+  for (const auto i : indices(probe)) finding.count(probe.isHit(i) != mustHit, probe.ray(i));
 }
 
 void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,
@@ -278,10 +271,8 @@ void countOtherPixels(Finding& finding, const Image& a, const Image& b, const st
   for (int y = a.window.y0; y < a.window.y1; ++y) {
     for (int x = a.window.x0; x < a.window.x1; ++x) {
       const Rgb &p = a.at(x, y), &q = b.at(mirrored ? b.width - 1 - x : x, y);
-      finding.count(std::bit_cast<Bits>(p) != std::bit_cast<Bits>(q), [&] {
-        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y) + ": " + hexText(p) +
-               " against " + hexText(q);
-      });
+      finding.count(std::bit_cast<Bits>(p) != std::bit_cast<Bits>(q), what, ", pixel ", x, ",", y,
+                    ": ", p, " against ", q);
     }
   }
 }

@@ -15,6 +15,10 @@ struct ProbeRay {
   std::uint32_t media = 0;
 };
 
+inline std::string textOf(const ProbeRay& ray) {
+  return "from " + textOf(ray.origin) + " along " + textOf(ray.direction);
+}
+
 struct ProbeChild {
   ProbeRay ray;
   Rgb weight;
@@ -117,9 +121,26 @@ inline int mediaCount(std::uint32_t stack) {
 // Counts the rays of a probe that hit something although they must not, or the other way round.
 void countHits(Finding& finding, const Probe& probe, bool mustHit);
 
-// Vector from the middle of the image plane to the center of a pixel.
-inline Vec3d asideOf(const CameraFrame& frame, int x, int y) {
-  return frame.right * (x + 0.5 - frame.width / 2.0) - frame.up * (y + 0.5 - frame.height / 2.0);
+// Calls visit(x, y) for every pixel of a picture.
+template <typename Visit>
+void forEachPixel(int width, int height, const Visit& visit) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) visit(x, y);
+  }
+}
+
+// Calls visit(start, direction, x, y) for the ray through the center of every pixel of a picture.
+template <typename Visit>
+void forEachRay(const Camera& camera, int width, int height, const Visit& visit) {
+  const CameraFrame frame = makeCameraFrame(camera, width, height);
+  forEachPixel(width, height, [&](int x, int y) {
+    const Vec3d aside = frame.right * (x + 0.5 - width / 2.0) - frame.up * (y + 0.5 - height / 2.0);
+    if (frame.orthographic) {
+      visit(frame.eye + aside, frame.forward, x, y);
+    } else {
+      visit(frame.eye, normalized(frame.forward + aside), x, y);
+    }
+  });
 }
 
 }  // namespace whit::verify

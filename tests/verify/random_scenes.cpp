@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "inspect/reference_frame.h"
 #include "sanitized.h"
 #include "verify/bodies.h"
 
@@ -32,7 +31,7 @@ class RandomScene {
   }
 
  private:
-  int below(int limit) { return static_cast<int>(numbers_.in(0, limit)); }
+  int below(int limit) { return int(numbers_.in(0, limit)); }
   bool one(int of) { return below(of) == 0; }
   // A size of about 1 mostly, and sometimes any size from tiny to huge.
   double size() {
@@ -48,26 +47,31 @@ class RandomScene {
   float amount() {
     if (one(4)) return 0;
     const double exponent = one(4) ? numbers_.in(-18, 18) : numbers_.in(-2, 3);
-    return static_cast<float>(std::pow(10.0, exponent));
+    return float(std::pow(10.0, exponent));
   }
-  float unit() { return static_cast<float>(one(3) ? below(2) : numbers_.in(0, 1)); }
+  // One of the first three enumerators.
+  template <typename Enum>
+  Enum any() {
+    return Enum(below(3));
+  }
+  float unit() { return float(one(3) ? below(2) : numbers_.in(0, 1)); }
   Rgb color(float largest = 1) { return Rgb{unit(), unit(), unit()} * largest; }
-  std::uint32_t bits() { return static_cast<std::uint32_t>(numbers_.in(0, 4294967296.0)); }
+  std::uint32_t bits() { return std::uint32_t(numbers_.in(0, 4294967296.0)); }
 
   void addTextures() {
     for (const TexelFormat format : {TexelFormat::color, TexelFormat::data}) {
       const int width = 1 + below(9), height = 1 + below(9);
-      std::vector<std::uint32_t> texels(static_cast<std::size_t>(width * height));
+      std::vector<std::uint32_t> texels(width * height);
       for (std::uint32_t& texel : texels) texel = bits();
       Texture texture = makeTexture(format, width, height, std::move(texels));
-      texture.wrapU = static_cast<Wrap>(below(3));
-      texture.wrapV = static_cast<Wrap>(below(3));
+      texture.wrapU = any<Wrap>();
+      texture.wrapV = any<Wrap>();
       builder_.add(std::move(texture));
     }
   }
   // Textures come in pairs, the colors first.
   std::int32_t map(TexelFormat format) {
-    const int pairs = static_cast<int>(builder_.description.textures.size()) / 2;
+    const int pairs = int(builder_.description.textures.size()) / 2;
     if (pairs == 0 || one(2)) return kNoTexture;
     return 2 * below(pairs) + (format == TexelFormat::data ? 1 : 0);
   }
@@ -87,7 +91,7 @@ class RandomScene {
       m.emission = color(amount());
       m.emissionMap = map(TexelFormat::color);
     }
-    m.vertexTint = static_cast<VertexTint>(below(3));
+    m.vertexTint = any<VertexTint>();
     if (one(4)) {
       m.alphaMap = map(TexelFormat::data);
       m.alphaCutoff = unit();
@@ -103,7 +107,7 @@ class RandomScene {
     }
     if (one(2)) {
       m.transmission = color();
-      m.ior = one(4) ? 1.0f : static_cast<float>(std::pow(10.0, numbers_.in(-1, 1)));
+      m.ior = one(4) ? 1.0f : float(std::pow(10.0, numbers_.in(-1, 1)));
       if (one(2)) m.absorption = color(amount());
       m.priority = below(5) - 2;
       m.thin = one(4);
@@ -114,14 +118,13 @@ class RandomScene {
   }
 
   Mesh mesh() {
-    const auto m =
-        static_cast<std::uint32_t>(below(static_cast<int>(builder_.description.materials.size())));
+    const auto m = std::uint32_t(below(int(builder_.description.materials.size())));
     const int kind = below(5), level = below(3);
     const Vec3d where = place(), sizes{size(), size(), size()};
 
     switch (kind) {
       case 0:
-        return floorAt(static_cast<float>(where.y), static_cast<float>(sizes.x), m);
+        return floorAt(float(where.y), float(sizes.x), m);
       case 1:
         return box(Vec3f(-1), Vec3f(sizes), m);
       case 2:
@@ -146,7 +149,7 @@ class RandomScene {
     }
 
     for (int i = 0; i < 40; ++i) {
-      const auto index = [&] { return static_cast<std::uint32_t>(below(31)); };
+      const auto index = [&] { return std::uint32_t(below(31)); };
       mesh.triangles.push_back({index(), index(), index()});
     }
     return mesh;
@@ -170,17 +173,17 @@ class RandomScene {
     Light light;
     light.position = Vec3f(place());
     light.intensity = color(amount());
-    light.radius = static_cast<float>(std::max(1e-6, 0.01 * size()));
+    light.radius = float(std::max(1e-6, 0.01 * size()));
 
-    light.kind = static_cast<Light::Kind>(below(3));
+    light.kind = any<Light::Kind>();
     light.direction = Vec3f(numbers_.direction());
-    light.outerConeAngle = static_cast<float>(numbers_.in(0.5, 90));
+    light.outerConeAngle = float(numbers_.in(0.5, 90));
     light.innerConeAngle = 0.99f * light.outerConeAngle * unit();
     return light;
   }
   Sky sky() {
     Sky sky;
-    sky.kind = static_cast<Sky::Kind>(below(3));
+    sky.kind = any<Sky::Kind>();
     for (Rgb* part : {&sky.zenith, &sky.horizon, &sky.ground}) *part = color(amount());
     sky.scale = unit();
     return sky;
@@ -191,8 +194,8 @@ class RandomScene {
     camera.eye = Vec3f(place());
     camera.at = one(8) ? camera.eye : Vec3f(place());
     camera.up = one(8) ? camera.at - camera.eye : Vec3f(numbers_.direction());
-    if (one(4)) camera.orthographicHeight = static_cast<float>(size());
-    camera.fov = one(4) ? static_cast<float>(numbers_.in(0.01, 179)) : 60;
+    if (one(4)) camera.orthographicHeight = float(size());
+    camera.fov = one(4) ? float(numbers_.in(0.01, 179)) : 60;
     return camera;
   }
 
@@ -212,44 +215,33 @@ std::optional<Scene> finalized(std::uint64_t seed) {
 }
 
 // Renders in both modes. The pictures need not agree, because rays hit many borders.
-Finding randomScenes(const Setup& setup) {
+void randomScenes(Run& run) {
   // Sanitizers also watch RandomPictures.*, which are as hostile.
   constexpr std::uint64_t kScenes = kSanitized ? 100 : 250;
-  Finding finding(0);
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const std::optional<Scene> scene = finalized(seed);
     if (!scene) continue;
 
-    RenderOptions options = optionsOf(setup, {8, 6});
+    RenderOptions options = optionsOf(run, {8, 6});
     options.depth = 5;
     if (seed % 2 == 0) options.shading.textureFilter = TextureFilter::trilinear;
-    Renderer renderer(*scene, options);
-    Film film = makeFilm(*scene, options);
-
-    const auto look = [&](const char* mode) {
-      for (const Rgb& pixel : film.image.pixels) {
-        finding.count(!isFinite(pixel) || std::min({pixel.x, pixel.y, pixel.z}) < 0, [&] {
-          return "seed " + std::to_string(seed) + ", " + mode + ": " + hexText(pixel);
-        });
+    const auto [packets, reference] = picturesOf(*scene, scene->cameras[0], options);
+    for (const Image* image : {&packets, &reference}) {
+      const char* const mode = image == &packets ? "packets" : "reference";
+      for (const Rgb& pixel : image->pixels) {
+        run.count(!isFinite(pixel) || std::min({pixel.x, pixel.y, pixel.z}) < 0, "seed ", seed,
+                  ", ", mode, ": ", pixel);
       }
-    };
-
-    renderer.render(scene->cameras[0], film);
-    look("packets");
-    renderReference(renderer, scene->cameras[0], film);
-    look("reference");
+    }
   }
-  return finding;
 }
-
-constexpr Case kRandomSceneCases[] = {
-    {"H29a", "random scenes have finite pixels",
-     "250 scenes of hostile numbers, packets and reference; pixels that are not finite", Runs::once,
-     randomScenes},
-};
 
 }  // namespace
 
-std::span<const Case> randomSceneCases() { return kRandomSceneCases; }
+const Family kRandomSceneCases{
+    "random scenes",
+    {{"H29a", "random scenes have finite pixels",
+      "250 scenes of hostile numbers, packets and reference; pixels that are not finite",
+      randomScenes, Runs::once}}};
 
 }  // namespace whit::verify

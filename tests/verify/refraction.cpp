@@ -12,36 +12,21 @@ namespace whit::verify {
 
 namespace {
 
-// Rays that hit a surfel whose normals both point up, at given cosines.
-struct Incidence {
-  std::vector<ProbeRay> rays;
-  std::vector<double> cosines;  // cosines after rounding, which the kernel sees
-};
-
-// Results of the kernels for a dielectric: F, which is the reflected weight, or 0 where nothing is
-// reflected; the refracted weight and direction, or 0.
-struct Interfaces {
-  std::vector<double> reflected, refracted;
-  std::vector<Vec3d> direction;
+// Results of the kernels for a ray that meets a dielectric.
+struct Interface {
+  ProbeRay ray;
+  double cosine = 0;                    // after rounding, which the kernel sees
+  double reflected = 0, refracted = 0;  // weights: F, or 0 where nothing is reflected; 1 - F, or 0
+  Vec3d direction;                      // of the refracted ray
 };
 
 using Real = long double;
+constexpr double kUnit = 0x1p-24;  // unit round-off of float
 
-Incidence raysAt(const std::vector<double>& cosines) {
-  Incidence incidence;
-  for (const double c : cosines) {
-    // The vertical component is the cosine and is not changed.
-    const auto down = static_cast<float>(c);
-    const double rounded = static_cast<double>(down);
-    const auto along = static_cast<float>(std::sqrt(std::max(0.0, (1 - rounded) * (1 + rounded))));
-    incidence.rays.push_back({{0, 1, 0}, {along, -down, 0}});
-    incidence.cosines.push_back(rounded);
-  }
-  return incidence;
-}
-
-// `from` is the index in front of the surface, `to` the index behind it.
-Interfaces throughKernels(float from, float to, const Incidence& incidence, const Setup& setup) {
+// Rays that hit a surfel whose normals both point up, at these cosines. `from` is the index in
+// front of the surface, `to` the index behind it.
+std::vector<Interface> throughKernels(float from, float to, const std::vector<double>& cosines,
+                                      const Setup& setup) {
   SceneBuilder builder;
   const auto front = builder.add(glassMaterial(from)), behind = builder.add(glassMaterial(to));
   builder.add(floorAt(0, 1, front));
@@ -49,24 +34,43 @@ Interfaces throughKernels(float from, float to, const Incidence& incidence, cons
   const Scene scene = builder.build();
 
   Probe probe(scene, setup);
-  std::vector<ProbeRay> rays = incidence.rays;
-  for (ProbeRay& ray : rays) ray.media = probe.tables().materials[front].medium;
+  std::vector<Interface> interfaces;
+  std::vector<ProbeRay> rays;
+  for (const double c : cosines) {
+    // The vertical component is the cosine and is not changed.
+    const float down = float(c);
+    const double rounded = down;
+    const float along = float(std::sqrt(std::max(0.0, (1 - rounded) * (1 + rounded))));
+    rays.push_back({{0, 1, 0}, {along, -down, 0}, probe.tables().materials[front].medium});
+    interfaces.push_back({rays.back(), rounded, 0, 0, {}});
+  }
+
   probe.load(rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) probe.surfel(i, behind, {0, 1, 0}, {0, 1, 0});
-
-  Interfaces result;
-  result.reflected.assign(rays.size(), 0);
-  result.refracted.assign(rays.size(), 0);
-  result.direction.resize(rays.size());
-
-  for (const ProbeChild& child : probe.reflections()) {
-    result.reflected[child.parent] = static_cast<double>(child.weight.x);
+  for (const auto i : indices(rays)) probe.surfel(i, behind, {0, 1, 0}, {0, 1, 0});
+  for (const auto& [ray, weight, parent] : probe.reflections()) {
+    interfaces[parent].reflected = weight.x;
   }
-  for (const ProbeChild& child : probe.refractions()) {
-    result.refracted[child.parent] = static_cast<double>(child.weight.x);
-    result.direction[child.parent] = Vec3d(child.ray.direction);
+  for (const auto& [ray, weight, parent] : probe.refractions()) {
+    interfaces[parent].refracted = weight.x;
+    interfaces[parent].direction = Vec3d(ray.direction);
   }
-  return result;
+  return interfaces;
+}
+
+using Pair = std::pair<float, float>;  // indices in front of a surface and behind it
+
+// Notes errorOf(interface, from, to) at these cosines, between each pair of indices, but for
+// interfaces for which it is negative.
+template <typename ErrorOf>
+void errorsAt(Run& run, const std::vector<double>& cosines, const std::vector<Pair>& pairs,
+              const ErrorOf& errorOf) {
+  for (const auto& [from, to] : pairs) {
+    for (const Interface& got : throughKernels(from, to, cosines, run)) {
+      const double error = errorOf(got, Real{from}, Real{to});
+      if (error < 0) continue;
+      run.note(error, "n ", from, " to ", to, ", cosine ", got.cosine);
+    }
+  }
 }
 
 // Unpolarised reflectance in the textbook's form, in long double.
@@ -79,57 +83,38 @@ Real fresnel(Real n1, Real n2, Real c) {
   return (rs * rs + rp * rp) / 2;
 }
 
-constexpr double kUnit = 0x1p-24;  // unit round-off of float
-
-auto describe(float from, float to, double c) {
-  return [=] {
-    return "n " + hexText(double{from}) + " to " + hexText(double{to}) + ", cosine " + hexText(c);
-  };
-}
-
 // Cosines around the critical one, with a distance of one unit in the last place.
-std::vector<double> aroundCritical(float from, float to) {
-  const double eta = static_cast<double>(to) / static_cast<double>(from);
-  auto c = static_cast<float>(std::sqrt((1 - eta) * (1 + eta)));
+std::vector<double> aroundCritical(double from, double to) {
+  const double eta = to / from;
+  float c = float(std::sqrt((1 - eta) * (1 + eta)));
   for (int i = 0; i < 2000; ++i) c = std::nextafter(c, 0.0f);
 
   std::vector<double> cosines;
-  for (int i = -2000; i <= 2000; ++i, c = std::nextafter(c, 1.0f)) {
-    cosines.push_back(static_cast<double>(c));
-  }
+  for (; cosines.size() <= 4000; c = std::nextafter(c, 1.0f)) cosines.push_back(c);
   return cosines;
 }
 
-Finding criticalFlag(const Setup& setup) {
-  Finding finding(0);
+void criticalFlag(Run& run) {
   const float from = 1.5f, to = 1;
-  const Incidence in = raysAt(aroundCritical(from, to));
-  const Interfaces got = throughKernels(from, to, in, setup);
-
-  for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-    const Real c = static_cast<Real>(in.cosines[i]);
+  for (const Interface& got : throughKernels(from, to, aroundCritical(from, to), run)) {
+    const Real c = got.cosine;
     const Real g2 = (to - from) * (Real{to} + from) / (Real{from} * from) + c * c;
     // Within the rounding of g2 both answers are right: F is 1 to four digits.
-    if (std::fabs(g2) < 2 * static_cast<Real>(kUnit)) continue;
-    finding.count((got.refracted[i] == 0) != (g2 <= 0), describe(from, to, in.cosines[i]));
+    if (std::fabs(g2) < 2 * Real{kUnit}) continue;
+    run.count((got.refracted == 0) != (g2 <= 0), "cosine ", got.cosine);
   }
-  return finding;
 }
 
-Finding criticalReflectance(const Setup& setup) {
+// The absolute error of F.
+double reflectanceError(const Interface& got, Real from, Real to) {
+  return std::fabs(got.reflected - double(fresnel(from, to, got.cosine)));
+}
+
+void criticalReflectance(Run& run) {
   // g^2 = k + c^2 is off by up to 4 roundings, g by their root, and 1 - F is
   // 2 (g / c) (1 + 1 / eta^2) to first order.
-  Finding finding(8.7 * std::sqrt(4 * kUnit));
-  const float from = 1.5f, to = 1;
-  const Incidence in = raysAt(aroundCritical(from, to));
-  const Interfaces got = throughKernels(from, to, in, setup);
-
-  for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-    const Real exact = fresnel(from, to, static_cast<Real>(in.cosines[i]));
-    finding.note(std::fabs(got.reflected[i] - static_cast<double>(exact)),
-                 describe(from, to, in.cosines[i]));
-  }
-  return finding;
+  run.boundBy(8.7 * std::sqrt(4 * kUnit));
+  errorsAt(run, aroundCritical(1.5, 1), {{1.5f, 1}}, reflectanceError);
 }
 
 // Cosines away from grazing incidence, where the elevation rule changes directions.
@@ -144,102 +129,75 @@ std::vector<double> cosines(std::uint64_t seed, std::size_t n, double least) {
   return result;
 }
 
-Finding equalIndices(const Setup& setup) {
-  Finding finding(0);
+void equalIndices(Run& run) {
   std::vector<double> all = cosines(38, 2000, 1e-7);
   all.push_back(0);  // along the surface
 
   for (const float n : {1.0f, 1.5f, 1.3333f}) {
-    const Incidence in = raysAt(all);
-    const Interfaces got = throughKernels(n, n, in, setup);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool same = got.direction[i] == Vec3d(in.rays[i].direction);
-      finding.count(got.reflected[i] != 0 || got.refracted[i] != 1 || !same,
-                    describe(n, n, in.cosines[i]));
+    for (const Interface& got : throughKernels(n, n, all, run)) {
+      const bool same = got.direction == Vec3d(got.ray.direction);
+      run.count(got.reflected != 0 || got.refracted != 1 || !same, "n ", n, ", cosine ",
+                got.cosine);
     }
   }
-  return finding;
 }
 
-Finding reflectanceError(const std::vector<std::pair<float, float>>& pairs, double bound,
-                         const Setup& setup) {
-  Finding finding(bound);
-  const Incidence in = raysAt(cosines(39, 4000, 1e-3));
-  for (const auto& [from, to] : pairs) {
-    const Interfaces got = throughKernels(from, to, in, setup);
-    for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-      const Real c = static_cast<Real>(in.cosines[i]), exact = fresnel(from, to, c);
-
-      // Near the critical angle the error of the root dominates (H37a).
-      const Real eta = Real{to} / from;
-      if (eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L) continue;
-      if (exact < 1e-30L) continue;
-      finding.note(static_cast<double>(std::fabs(got.reflected[i] - exact) / exact),
-                   describe(from, to, in.cosines[i]));
-    }
-  }
-  return finding;
+// The relative error of F away from the critical angle.
+void relativeReflectanceError(Run& run, const std::vector<Pair>& pairs) {
+  errorsAt(run, cosines(39, 4000, 1e-3), pairs, [](const Interface& got, Real from, Real to) {
+    const Real c = got.cosine, exact = fresnel(from, to, c), eta = to / from;
+    // Near the critical angle the error of the root dominates (H37a).
+    const bool critical = eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L;
+    if (critical || exact < 1e-30L) return -1.0;
+    return double(std::fabs(got.reflected - exact) / exact);
+  });
 }
 
-Finding nearlyEqualIndices(const Setup& setup) {
+void nearlyEqualIndices(Run& run) {
+  run.boundBy(16 * kUnit);
   // One unit in the last place of 1 is 1.2e-7.
-  return reflectanceError({{1, 1.0001f}, {1, 1.00001f}, {1, 1 + 0x1p-23f}, {1.5f, 1.50001f}},
-                          16 * kUnit, setup);
+  relativeReflectanceError(run, {{1, 1.0001f}, {1, 1.00001f}, {1, 1 + 0x1p-23f}, {1.5f, 1.50001f}});
 }
 
-Finding fresnelTable(const Setup& setup) {
-  return reflectanceError({{1, 1.33f}, {1, 1.5f}, {1, 2.42f}, {1, 4}}, 16 * kUnit, setup);
+void fresnelTable(Run& run) {
+  run.boundBy(16 * kUnit);
+  relativeReflectanceError(run, {{1, 1.33f}, {1, 1.5f}, {1, 2.42f}, {1, 4}});
 }
 
-Finding grazing(const Setup& setup) {
+void grazing(Run& run) {
   // The mean of two squares next to 1, each a product of rounded quotients.
-  Finding finding(4 * kUnit);
-  const Incidence in = raysAt({1e-4, 3e-5, 1e-5, 1e-6, 1e-9, 1e-20});
-  const Interfaces got = throughKernels(1, 1.5f, in, setup);
-
-  for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-    const Real exact = fresnel(1, 1.5L, static_cast<Real>(in.cosines[i]));
-    finding.note(std::fabs(static_cast<double>(got.reflected[i] - exact)),
-                 describe(1, 1.5f, in.cosines[i]));
-  }
-  return finding;
+  run.boundBy(4 * kUnit);
+  errorsAt(run, {1e-4, 3e-5, 1e-5, 1e-6, 1e-9, 1e-20}, {{1, 1.5f}}, reflectanceError);
 }
 
-Finding fromTheDenserSide(const Setup& setup) {
+void fromTheDenserSide(Run& run) {
   // F comes from the differences of cosines that nearly agree with their critical value; relative
   // to the 0.1 that is kept clear of it, ten times as many roundings count.
-  return reflectanceError({{1.5f, 1}, {1.33f, 1}, {1.33f, 1.0f / 1.33f}, {2.42f, 1.33f}},
-                          160 * kUnit, setup);
+  run.boundBy(160 * kUnit);
+  relativeReflectanceError(run, {{1.5f, 1}, {1.33f, 1}, {1.33f, 1.0f / 1.33f}, {2.42f, 1.33f}});
 }
 
 // Snell's invariant n sin: the sines on both sides, each by its own index.
-Finding snell(const Setup& setup) {
-  Finding finding(4 * kUnit);
-  const Incidence in = raysAt(cosines(42, 4000, 0.05));
-  for (const auto& [from, to] :
-       std::array<std::pair<float, float>, 3>{{{1, 1.5f}, {1.33f, 1.5f}, {1, 1.0001f}}}) {
-    const Interfaces got = throughKernels(from, to, in, setup);
-    for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-      const double s1 = static_cast<double>(in.rays[i].direction.x), s2 = got.direction[i].x;
-      finding.note(std::fabs(s2 - s1 * static_cast<double>(from) / static_cast<double>(to)),
-                   describe(from, to, in.cosines[i]));
-    }
-  }
-  return finding;
+void snell(Run& run) {
+  run.boundBy(4 * kUnit);
+  errorsAt(run, cosines(42, 4000, 0.05), {{1, 1.5f}, {1.33f, 1.5f}, {1, 1.0001f}},
+           [](const Interface& got, Real from, Real to) {
+             const double s1 = got.ray.direction.x, n1 = double(from), n2 = double(to);
+             return std::fabs(got.direction.x - s1 * n1 / n2);
+           });
 }
 
 // A slab of thickness 1 moves a ray at 60 degrees by 0.512472013 to the side and does not turn it.
-Finding slabShift(const Setup& setup) {
+void slabShift(Run& run) {
   // Each face moves the start of its ray by the offset: 2^-19 of coordinates of up to 8.
-  Finding finding(2 * 8 * 0x1p-19 / 0.512);
+  run.boundBy(2 * 8 * 0x1p-19 / 0.512);
   SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 4);
+  addSlab(builder, 0, -1, glassMaterial(1.5f), 4);
   const Scene scene = builder.build();
-  Probe probe(scene, setup);
+  Probe probe(scene, run);
 
   const Vec3d d{std::sqrt(0.75), -0.5, 0};
   std::vector<ProbeRay> rays;
-  rays.reserve(64);
   for (int i = 0; i < 64; ++i) {
     rays.push_back({Vec3f(Vec3d{-1 + i / 64.0, 1, i / 40.0 - 0.8}), Vec3f(d)});
   }
@@ -254,77 +212,66 @@ Finding slabShift(const Setup& setup) {
     const Vec3d moved = Vec3d(rays[i].origin) - Vec3d(start[i].origin);
     const double sideways = length(moved - d * dot(moved, d));
     const double turned = length(Vec3d(rays[i].direction) - d);
-    finding.note(std::max(std::fabs(sideways - 0.512472013047) / 0.512472013047, turned),
-                 described(start[i]));
+    run.note(std::max(std::fabs(sideways - 0.512472013047) / 0.512472013047, turned), start[i]);
   }
-  return finding;
 }
 
 // In a white room only the light that is still inside after d internal reflections is missing,
 // which is R^d (1 - R).
-Finding furnace(const Setup& setup) {
-  Finding finding(1e-6);
+void furnace(Run& run) {
+  run.boundBy(1e-6);
   SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 50);
+  addSlab(builder, 0, -1, glassMaterial(1.5f), 50);
   builder.sky(1);
   const Scene scene = builder.build();
   const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
 
   for (const int inside : {1, 2, 3, 4, 12}) {
-    RenderOptions options = optionsOf(setup);
-    options.size = inside < 12 ? ImageSize{1, 1} : ImageSize{33, 21};
+    RenderOptions options = optionsOf(run, inside < 12 ? ImageSize{1, 1} : ImageSize{33, 21});
     options.depth = inside + 1;
     options.cutoff = 0;
 
     const double lost = inside < 12 ? std::pow(0.04, inside) * 0.96 : 0;
     for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
-      finding.note(std::fabs(static_cast<double>(pixel.x) - (1 - lost)),
-                   [&] { return "depth " + std::to_string(inside + 1); });
+      run.note(std::fabs(pixel.x - (1 - lost)), "depth ", inside + 1);
     }
   }
-  return finding;
 }
 
-Finding energyOfOneEvent(const Setup& setup) {
-  Finding finding(2 * kUnit);
-  const Incidence in = raysAt(cosines(44, 4000, 1e-6));
-  for (const auto& [from, to] : std::array<std::pair<float, float>, 5>{
-           {{1, 1.5f}, {1.5f, 1}, {1.33f, 1.5f}, {1, 1.00001f}, {2.42f, 1}}}) {
-    const Interfaces got = throughKernels(from, to, in, setup);
-    for (std::size_t i = 0; i < in.cosines.size(); ++i) {
-      finding.note(std::fabs(got.reflected[i] + got.refracted[i] - 1),
-                   describe(from, to, in.cosines[i]));
-    }
-  }
-  return finding;
+void energyOfOneEvent(Run& run) {
+  run.boundBy(2 * kUnit);
+  errorsAt(run, cosines(44, 4000, 1e-6),
+           {{1, 1.5f}, {1.5f, 1}, {1.33f, 1.5f}, {1, 1.00001f}, {2.42f, 1}},
+           [](const Interface& got, Real, Real) {
+             return std::fabs(got.reflected + got.refracted - 1);
+           });
 }
-
-constexpr Case kRefractionCases[] = {
-    {"H37", "total reflection begins at the critical angle",
-     "cosines within 2000 ulp of it; disagreements with the sign in long double", Runs::targets,
-     criticalFlag},
-    {"H37a", "reflectance next to the critical angle", "the same cosines; absolute error of F",
-     Runs::targets, criticalReflectance},
-    {"H38", "equal indices: nothing reflected, directions bit for bit",
-     "indices 1, 1.5 and 1.3333 on both sides, cosines down to 1e-7", Runs::targets, equalIndices},
-    {"H39", "indices that differ by 1e-7 to 1e-4", "relative error of F for cosines from 1e-3",
-     Runs::targets, nearlyEqualIndices},
-    {"H40", "Fresnel's reflectance", "indices 1.33, 1.5, 2.42, 4; relative error of F",
-     Runs::targets, fresnelTable},
-    {"H40a", "grazing incidence", "cosines 1e-4 to 1e-20; absolute error of F", Runs::targets,
-     grazing},
-    {"H41", "from the denser side", "relative error of F away from the critical angle",
-     Runs::targets, fromTheDenserSide},
-    {"H42", "Snell's law", "n sin on both sides; absolute error of the sine", Runs::targets, snell},
-    {"H42a", "a slab moves a ray sideways and does not turn it",
-     "thickness 1, 60 degrees, index 1.5; relative error of the shift", Runs::packets, slabShift},
-    {"H43", "white furnace through a slab", "closed form for every depth", Runs::packets, furnace},
-    {"H44", "reflected and refracted weights add up to 1", "sums of the kernels' weights less 1",
-     Runs::targets, energyOfOneEvent},
-};
 
 }  // namespace
 
-std::span<const Case> refractionCases() { return kRefractionCases; }
+const Family kRefractionCases{
+    "refraction",
+    {{"H37", "total reflection begins at the critical angle",
+      "cosines within 2000 ulp of it; disagreements with the sign in long double", criticalFlag,
+      Runs::targets},
+     {"H37a", "reflectance next to the critical angle", "the same cosines; absolute error of F",
+      criticalReflectance, Runs::targets},
+     {"H38", "equal indices: nothing reflected, directions bit for bit",
+      "indices 1, 1.5 and 1.3333 on both sides, cosines down to 1e-7", equalIndices, Runs::targets},
+     {"H39", "indices that differ by 1e-7 to 1e-4", "relative error of F for cosines from 1e-3",
+      nearlyEqualIndices, Runs::targets},
+     {"H40", "Fresnel's reflectance", "indices 1.33, 1.5, 2.42, 4; relative error of F",
+      fresnelTable, Runs::targets},
+     {"H40a", "grazing incidence", "cosines 1e-4 to 1e-20; absolute error of F", grazing,
+      Runs::targets},
+     {"H41", "from the denser side", "relative error of F away from the critical angle",
+      fromTheDenserSide, Runs::targets},
+     {"H42", "Snell's law", "n sin on both sides; absolute error of the sine", snell,
+      Runs::targets},
+     {"H42a", "a slab moves a ray sideways and does not turn it",
+      "thickness 1, 60 degrees, index 1.5; relative error of the shift", slabShift},
+     {"H43", "white furnace through a slab", "closed form for every depth", furnace},
+     {"H44", "reflected and refracted weights add up to 1", "sums of the kernels' weights less 1",
+      energyOfOneEvent, Runs::targets}}};
 
 }  // namespace whit::verify

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/index.h"
 #include "core/vec3.h"
 #include "pi.h"
 
@@ -69,7 +70,7 @@ class SceneBuilder {
 
   std::uint32_t add(const Material& material) {
     description.materials.push_back(material);
-    return static_cast<std::uint32_t>(description.materials.size() - 1);
+    return size32(description.materials) - 1;
   }
   std::int32_t add(Texture texture) {
     description.textures.push_back(std::move(texture));
@@ -77,6 +78,11 @@ class SceneBuilder {
   }
   // Adds a mesh to the world, without a transform.
   void add(Mesh mesh) { world_.meshes.push_back(std::move(mesh)); }
+  // The same, all of a new material.
+  void add(Mesh mesh, const Material& material) {
+    mesh.materials = {add(material)};
+    add(std::move(mesh));
+  }
   void sky(float radiance) {
     description.sky.kind = Sky::Kind::color;
     description.sky.zenith = Rgb(radiance);
@@ -90,8 +96,8 @@ class SceneBuilder {
   }
   // Two or more placements make instances.
   void place(Object object, const std::vector<Affine>& placements) {
+    const std::uint32_t number = size32(description.objects);
     description.objects.push_back(std::move(object));
-    const auto number = static_cast<std::uint32_t>(description.objects.size() - 1);
     for (const Affine& placement : placements) description.instances.push_back({number, placement});
   }
 
@@ -127,11 +133,11 @@ inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
   return mesh;
 }
 // A horizontal square at height y, 2 * half wide; its outside is up.
-inline Mesh floorAt(float y, float half, std::uint32_t material) {
+inline Mesh floorAt(float y, float half, std::uint32_t material = 0) {
   return quad({-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}, material);
 }
 // The same square with its outside down.
-inline Mesh ceilingAt(float y, float half, std::uint32_t material) {
+inline Mesh ceilingAt(float y, float half, std::uint32_t material = 0) {
   return quad({-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}, material);
 }
 // Two faces with the medium in between. Large faces are as good as infinite, but the coordinates of
@@ -141,9 +147,13 @@ inline void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_
   builder.add(floorAt(top, half, material));
   builder.add(ceilingAt(bottom, half, material));
 }
+inline void addSlab(SceneBuilder& builder, float top, float bottom, const Material& material,
+                    float half = 1000) {
+  addSlab(builder, top, bottom, builder.add(material), half);
+}
 // An axis-aligned box with eight shared corners and no texture coordinates; its outside is
 // outwards.
-inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
+inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material = 0) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.push_back(Box{low, high}.corner(i));
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
@@ -153,7 +163,7 @@ inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
 }
 
 // The sphere of radius 1 about the origin, or the ellipsoid that `map` makes of it.
-inline Mesh exactSphere(std::uint32_t material, const Affine& map = {}) {
+inline Mesh exactSphere(std::uint32_t material = 0, const Affine& map = {}) {
   Mesh mesh;
   mesh.spheres = {map};
   mesh.materials = {material};
@@ -168,6 +178,8 @@ class Numbers {
   double in(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) / 9007199254740992.0);
   }
+  // A point of the cube that reaches from -half to half.
+  Vec3d inCube(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
   // A unit vector, uniform on the sphere.
   Vec3d direction() {
     const double z = in(-1, 1), angle = in(0, 2 * kPi);

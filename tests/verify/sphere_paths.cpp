@@ -20,54 +20,49 @@ std::vector<ProbeRay> raysOntoBall(const Ball& ball, int n, std::uint64_t seed) 
 
 constexpr int kRaysABall = 200;
 
-Finding leavingBalls(const Setup& setup) {
-  Finding finding(0);
+void leavingBalls(Run& run) {
   for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3})) {
     const Scene scene = ball.scene(shinyMaterial());
-    Probe probe(scene, setup, raysOntoBall(ball, kRaysABall, 76));
+    Probe probe(scene, run, raysOntoBall(ball, kRaysABall, 76));
 
-    const Probe next(scene, setup, raysOf(probe.reflections()));
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      finding.count(next.isHit(i), ball.described(next.ray(i)));
+    const Probe next(scene, run, raysOf(probe.reflections()));
+    for (const auto i : indices(next)) {
+      run.count(next.isHit(i), ball, next.ray(i));
     }
 
     probe.light(lightAt(Vec3f(ball.point({3, 2.5, -2}, 1)), 1));
-    for (std::size_t i = 0; i < probe.size(); ++i) {
+    for (const auto i : indices(probe)) {
       if (!probe.isHit(i) || maxComponent(probe.unshadowed(i)) <= 0) continue;
-      finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
+      run.count(!probe.visible(i), "shadow of ", probe.ray(i));
     }
   }
-  return finding;
 }
 
 // Returns true if a ray within the sphere hits its far side at the right distance.
 bool hitsFarSide(const Probe& probe, const Ball& ball, std::size_t i) {
   const BallChord chord = ball.chord(probe.ray(i));
   if (!probe.isHit(i) || enters(probe, i) || !(chord.near < 0)) return false;
-  const auto off = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / chord.far - 1);
-  return std::fabs(off) <= 1.001 * kBallRounding;
+  return std::fabs(probe.hits().t[i] / chord.far - 1) <= 1.001 * kBallRounding;
 }
 
-Finding throughBalls(const Setup& setup) {
-  Finding finding(0);
+void throughBalls(Run& run) {
   for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3})) {
     const Scene scene = ball.scene(glassMaterial(1.5f));
-    Probe probe(scene, setup, raysOntoBall(ball, kRaysABall, 77)), inside(scene, setup);
+    Probe probe(scene, run, raysOntoBall(ball, kRaysABall, 77)), inside(scene, run);
     const auto castInside = [&](const std::vector<ProbeRay>& rays) {
       inside.cast(rays);
-      for (std::size_t i = 0; i < inside.size(); ++i) {
-        finding.count(!hitsFarSide(inside, ball, i), ball.described(rays[i]));
+      for (const auto i : indices(inside)) {
+        run.count(!hitsFarSide(inside, ball, i), ball, rays[i]);
       }
     };
 
     castInside(raysOf(probe.refractions()));
-    const Probe after(scene, setup, raysOf(inside.refractions()));
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      finding.count(after.isHit(i) || after.ray(i).media != 0, ball.described(after.ray(i)));
+    const Probe after(scene, run, raysOf(inside.refractions()));
+    for (const auto i : indices(after)) {
+      run.count(after.isHit(i) || after.ray(i).media != 0, ball, after.ray(i));
     }
     castInside(raysOf(inside.reflections()));
   }
-  return finding;
 }
 
 // Thickness of a shell, relative to its outer radius.
@@ -81,11 +76,11 @@ struct Shell {
 // A shell of glass filled with air, whose priority is above that of the glass.
 Shell shellOf(float radius, float ior) {
   const Ball outer{{0, 0, 0}, radius};
-  const Ball inner{{0, 0, 0}, static_cast<float>(double{radius} * (1 - kShellGap))};
+  const Ball inner{{0, 0, 0}, float(radius * (1 - kShellGap))};
 
   SceneBuilder builder;
-  builder.add(outer.mesh(builder.add(glassMaterial(ior, 0))));
-  builder.add(inner.mesh(builder.add(glassMaterial(1, 1))));
+  builder.add(outer.mesh(), glassMaterial(ior, 0));
+  builder.add(inner.mesh(), glassMaterial(1, 1));
   return {outer, inner, builder.build()};
 }
 
@@ -100,38 +95,36 @@ constexpr ShellCrossing kThroughShell[] = {
 // Sends rays through all four boundaries; each ray must hit them in order. errorOf(start, end) is
 // the error of a ray that has left the shell.
 template <typename ErrorOf>
-void crossShell(const Shell& shell, const Setup& setup, std::vector<ProbeRay> rays,
-                Finding& finding, const ErrorOf& errorOf) {
-  Probe probe(shell.scene, setup);
+void crossShell(Run& run, const Shell& shell, std::vector<ProbeRay> rays, const ErrorOf& errorOf) {
+  Probe probe(shell.scene, run);
   const std::vector<ProbeRay> start = rays;
   for (const ShellCrossing& c : kThroughShell) {
     probe.cast(rays);
 
-    for (std::size_t i = 0; i < probe.size(); ++i) {
+    for (const auto i : indices(probe)) {
       const bool met = probe.isHit(i) && probe.surfels().material[i] == c.material &&
                        enters(probe, i) == c.entering && mediaCount(rays[i].media) == c.media;
-      if (!met) finding.note(kNoBound, shell.outer.described(rays[i]));
+      if (!met) run.note(kNoBound, shell.outer, rays[i]);
     }
 
     rays = raysOf(probe.refractions());
     if (rays.size() == start.size()) continue;
-    finding.note(kNoBound, [] { return "some rays ended within the shell"; });
+    run.note(kNoBound, "some rays ended within the shell");
     return;
   }
 
   probe.cast(rays);
-  for (std::size_t i = 0; i < probe.size(); ++i) {
+  for (const auto i : indices(probe)) {
     const bool gone = !probe.isHit(i) && rays[i].media == 0;
     const double error = gone ? errorOf(start[i], rays[i]) : kNoBound;
-    finding.note(error, shell.outer.described(start[i]));
+    run.note(error, shell.outer, start[i]);
   }
 }
 
 // The index is 1: at no angle does a bit of the direction change. Rays between the silhouettes of
 // both spheres miss the inner one. An offset, which is below 2^-19 of the radius, may move a ray
 // across its silhouette, so rays next to it are left out.
-Finding straightThroughShell(const Setup& setup) {
-  Finding finding(0);
+void straightThroughShell(Run& run) {
   for (const float radius : {1e-3f, 1.0f, 1e3f}) {
     const Shell shell = shellOf(radius, 1);
 
@@ -139,17 +132,16 @@ Finding straightThroughShell(const Setup& setup) {
     for (const ProbeRay& ray : raysOntoBall(shell.outer, 600, 78)) {
       if (shell.inner.chord(ray).aside < 1 - 0x1p-17L) rays.push_back(ray);
     }
-    crossShell(shell, setup, rays, finding, [](const ProbeRay& before, const ProbeRay& after) {
+    crossShell(run, shell, rays, [](const ProbeRay& before, const ProbeRay& after) {
       return before.direction == after.direction ? 0.0 : 1.0;
     });
   }
-  return finding;
 }
 
 // Rays through the center are refracted only as far as the normals are off: into glass by a third
 // of that error, out of glass by a half, at two faces each. Four directions are rounded as well.
-Finding glassShell(const Setup& setup) {
-  Finding finding(1);
+void glassShell(Run& run) {
+  run.boundBy(1);
   for (const float radius : {1e-3f, 1.0f, 1e3f}) {
     const Shell shell = shellOf(radius, 1.5f);
 
@@ -157,13 +149,12 @@ Finding glassShell(const Setup& setup) {
       const Vec3f from(shell.outer.point(numbers.direction(), 3));
       return rayThrough(from, {0, 0, 0});
     });
-    crossShell(shell, setup, rays, finding, [&](const ProbeRay& before, const ProbeRay& after) {
+    crossShell(run, shell, rays, [&](const ProbeRay& before, const ProbeRay& after) {
       const double normalsError = kWeightAngle + shell.outer.aside(before);
       const double bound = 2 * (1.0 / 3 + 1.0 / 2) * 1.01 * normalsError + 4 * 4 * kBallRounding;
       return length(Vec3d(after.direction) - Vec3d(before.direction)) / bound;
     });
   }
-  return finding;
 }
 
 // Rays within a ball of glass that hit its surface at sines of 0.68 to 0.9999; the critical sine is
@@ -179,19 +170,18 @@ std::vector<ProbeRay> galleryRays(const Ball& ball, std::uint32_t medium) {
 // Upper bound on the change of the sine at a bounce: the ray starts at an offset from the surface
 // and behind the hit, the hit's weights turn the normal, and the direction takes a few roundings.
 double driftAt(const Probe& probe, const Ball& ball, std::size_t i) {
-  const auto offset = static_cast<double>(probe.surfels().offset[i]);
-  const auto viewOffset = static_cast<double>(probe.surfels().viewOffset[i]);
+  const double offset = probe.surfels().offset[i], viewOffset = probe.surfels().viewOffset[i];
   return (offset + viewOffset + ball.heightError()) / ball.r() + kWeightAngle + 8 * kBallRounding;
 }
 
 // The sine of a chord is the same at both ends, so that the bounds of all bounces so far add up.
 // The finding is the error of the sine relative to their sum.
-Finding whisperingGallery(const Setup& setup) {
-  Finding finding(1);
+void whisperingGallery(Run& run) {
+  run.boundBy(1);
   constexpr int kDepth = 64;
   for (const Ball& ball : {Ball{}, Ball{{0, 0, 0}, 1e-5f}, Ball{{2, -1, 3}, 1}}) {
     const Scene scene = ball.scene(glassMaterial(1.5f));
-    Probe probe(scene, setup);
+    Probe probe(scene, run);
     std::vector<ProbeRay> rays = galleryRays(ball, probe.tables().materials[0].medium);
 
     std::vector<double> sine, drift(rays.size());
@@ -201,7 +191,7 @@ Finding whisperingGallery(const Setup& setup) {
 
       const std::vector<ProbeChild> reflected = probe.reflections();
       if (reflected.size() != rays.size() || !probe.refractions().empty()) {
-        finding.note(kNoBound, [&] { return std::to_string(bounce) + " bounces"; });
+        run.note(kNoBound, bounce, " bounces");
         break;
       }
 
@@ -211,12 +201,11 @@ Finding whisperingGallery(const Setup& setup) {
         const Vec3d n(probe.ng(i)), d(rays[i].direction);
         const double off = length(cross(n, d)) / length(d) - sine[i];
         const bool whole = child.weight == Rgb(1.0f) && !enters(probe, i);
-        finding.note(whole ? std::fabs(off) / drift[i] : kNoBound, ball.described(rays[i]));
+        run.note(whole ? std::fabs(off) / drift[i] : kNoBound, ball, rays[i]);
       }
       rays = raysOf(reflected);
     }
   }
-  return finding;
 }
 
 // The distance behind the center, in radii, at which a ray parallel to an axis crosses that axis.
@@ -238,11 +227,11 @@ double crossingOf(const Ball& ball, const ProbeRay& ray, const Vec3d& axis) {
   return dot(from + d * t, axis) / ball.r();
 }
 
-Finding ballLens(const Setup& setup) {
-  Finding finding(1);
+void ballLens(Run& run) {
+  run.boundBy(1);
   constexpr double kIor = 1.5, kFocus = kIor / (2 * (kIor - 1));
   for (const Ball& ball : {Ball{}, Ball{{0, 0, 0}, 1e4f}, Ball{{1, 0.5f, -1}, 1}}) {
-    const Scene scene = ball.scene(glassMaterial(static_cast<float>(kIor)));
+    const Scene scene = ball.scene(glassMaterial(float(kIor)));
 
     const auto start = randomRays(300, 81, [&](Numbers& numbers, int) {
       const Vec3d d = numbers.direction(), e = across(d, numbers);
@@ -250,24 +239,22 @@ Finding ballLens(const Setup& setup) {
       return ProbeRay{Vec3f(ball.point(from, 1)), Vec3f(d)};
     });
 
-    Probe probe(scene, setup, start);
+    Probe probe(scene, run, start);
     probe.cast(raysOf(probe.refractions()));
     const std::vector<ProbeRay> out = raysOf(probe.refractions());
-    if (out.size() != start.size()) finding.note(kNoBound, [] { return "some never left"; });
-    for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out.size() != start.size()) run.note(kNoBound, "some never left");
+    for (const auto i : indices(out)) {
       const double height = ball.aside(start[i]);
       const double found = crossingOf(ball, out[i], normalized(Vec3d(start[i].direction)));
       // Upper bound on the error, in radii, of both points of the path, and of the two directions.
-
       const double off = 2 * (kWeightAngle + 2 * ball.heightError() / ball.r());
       const double room = 2 * off / (2 * (1 - 1 / kIor) * height);
       const double exact = std::fabs(found / ballFocus(height, kIor) - 1) / room;
       const double paraxial =
           std::fabs(found / kFocus - 1) / (kAberration * height * height + room);
-      finding.note(std::max(exact, paraxial), ball.described(start[i]));
+      run.note(std::max(exact, paraxial), ball, start[i]);
     }
   }
-  return finding;
 }
 
 // Two coincident spheres in the order of the scene, and which of them a ray must hit.
@@ -312,26 +299,22 @@ Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart, bool turned
   return builder.build();
 }
 
-Finding ballsInOnePlace(const Setup& setup) {
-  Finding finding(0);
+void ballsInOnePlace(Run& run) {
   const Ball ball{{0.3f, -0.2f, 0.7f}, 0.9f};
   const std::vector<ProbeRay> rays = raysOntoBall(ball, 300, 82);
   for (const Rivals& two : rivals()) {
     for (const int arrangement : {0, 1, 2, 3}) {
       const bool apart = arrangement % 2 == 1, turned = arrangement >= 2;
       const Scene scene = sceneOfRivals(two, ball, apart, turned);
-      Probe probe(scene, setup, rays);
+      Probe probe(scene, run, rays);
 
-      for (std::size_t i = 0; i < probe.size(); ++i) {
+      for (const auto i : indices(probe)) {
         const bool right = probe.isHit(i) && probe.surfels().material[i] == two.winner;
-        finding.count(!right && ball.chord(rays[i]).aside < 1, [&] {
-          const std::string text = apart ? "instances, " : "one object, ";
-          return text + (turned ? "turned, " : "") + describeRay(rays[i]);
-        });
+        run.count(!right && ball.chord(rays[i]).aside < 1, apart ? "instances, " : "one object, ",
+                  turned ? "turned, " : "", rays[i]);
       }
     }
   }
-  return finding;
 }
 
 // Spheres that overlap at random. Each has a second one that is coincident with it, inside it or
@@ -345,7 +328,7 @@ SceneBuilder manyBalls() {
   Object object;
 
   for (std::uint32_t i = 0; i < 24; ++i) {
-    const Ball ball{Vec3f(numbers.direction() * 2.0), static_cast<float>(numbers.in(0.2, 0.9))};
+    const Ball ball{Vec3f(numbers.direction() * 2.0), float(numbers.in(0.2, 0.9))};
     const Vec3f beside(ball.point({1, 0, 0}, 2));
     const Ball others[] = {ball, {ball.center, ball.radius * 0.75f}, {beside, ball.radius}};
     for (const Mesh& mesh :
@@ -370,24 +353,22 @@ std::vector<ProbeRay> raysIntoMany() {
   });
 }
 
-Finding ballsInPackets(const Setup& setup) {
-  Finding finding(0);
+void ballsInPackets(Run& run) {
   const Scene scene = manyBalls().build();
   const std::vector<ProbeRay> rays = raysIntoMany();
-  const Probe single(scene, {setup.simd, 1}, rays), probe(scene, setup, rays);
-  for (std::size_t i = 0; i < probe.size(); ++i) {
-    finding.count(!single.sameHit(probe, i), described(rays[i]));
+  const Probe single(scene, {run.simd, 1}, rays), probe(scene, run, rays);
+  for (const auto i : indices(probe)) {
+    run.count(!single.sameHit(probe, i), rays[i]);
   }
 
   const Camera camera{.eye = {1, 2, 7}, .at = {0, 0, 0}};
-  const Image expected = pictureOf(scene, camera, optionsOf({setup.simd, 1}, {40, 30}));
+  const Image expected = pictureOf(scene, camera, optionsOf({run.simd, 1}, {40, 30}));
   for (const int tile : {7, 8, 64}) {
-    RenderOptions options = optionsOf(setup, {40, 30});
+    RenderOptions options = optionsOf(run, {40, 30});
     options.tile = tile;
-    countOtherPixels(finding, pictureOf(scene, camera, options), expected,
+    countOtherPixels(run, pictureOf(scene, camera, options), expected,
                      "tiles of " + std::to_string(tile));
   }
-  return finding;
 }
 
 // Pairs of spheres that are mirror images of each other about the plane x = 0 and cross there,
@@ -397,11 +378,8 @@ std::vector<Ball> mirroredBalls() {
   Numbers numbers(85);
   std::vector<Ball> balls;
   for (int i = 0; i < 40; ++i) {
-    const auto radius = static_cast<float>(numbers.in(0.3, 0.9));
-    const auto x = radius * static_cast<float>(numbers.in(0.1, 0.9));
-    const Vec3f center(x, static_cast<float>(numbers.in(-3, 3)),
-
-                       static_cast<float>(numbers.in(-3, 3)));
+    const float radius = float(numbers.in(0.3, 0.9)), x = radius * float(numbers.in(0.1, 0.9));
+    const Vec3f center{x, float(numbers.in(-3, 3)), float(numbers.in(-3, 3))};
     balls.push_back({center, radius});
     balls.push_back({{-x, center.y, center.z}, radius});
     balls.push_back({{i % 2 == 0 ? 1.0f : -1.0f, center.z, center.y}, 0.75f});
@@ -409,7 +387,7 @@ std::vector<Ball> mirroredBalls() {
 
   // The order of the balls is shuffled, the same way on every machine.
   for (std::size_t i = balls.size() - 1; i > 0; --i) {
-    std::swap(balls[i], balls[static_cast<std::size_t>(numbers.in(0, static_cast<double>(i + 1)))]);
+    std::swap(balls[i], balls[std::size_t(numbers.in(0, double(i + 1)))]);
   }
   return balls;
 }
@@ -423,7 +401,7 @@ Scene sceneOfMirrored(const std::vector<Ball>& balls, Placement placement) {
   SceneBuilder builder;
   Object object;
   for (const Ball& ball : balls) {
-    const auto number = static_cast<float>(builder.description.materials.size() + 1);
+    const float number = float(builder.description.materials.size() + 1);
     const std::uint32_t material = builder.add(emittingMaterial(number * kGlow));
 
     if (placement == Placement::world) builder.add(ball.mesh(material));
@@ -446,7 +424,7 @@ std::optional<std::size_t> firstHit(const std::vector<Ball>& balls, const ProbeR
   long double nearest = kNoBound, next = kNoBound;
   std::optional<std::size_t> first;
 
-  for (std::size_t i = 0; i < balls.size(); ++i) {
+  for (const auto i : indices(balls)) {
     const BallChord chord = balls[i].chord(ray);
     if (chord.aside > 1 + kDoubt) continue;
     const long double least = std::min(std::fabs(chord.near), std::fabs(chord.far));
@@ -464,11 +442,9 @@ std::optional<std::size_t> firstHit(const std::vector<Ball>& balls, const ProbeR
   return next - nearest < kDoubt ? std::nullopt : first;
 }
 
-Finding mirroredInAnyOrder(const Setup& setup) {
-  Finding finding(0);
+void mirroredInAnyOrder(Run& run) {
   const std::vector<Ball> balls = mirroredBalls();
   const Camera camera{.eye = {0, 1, 9}, .at = {0, 0, 0}, .fov = 50};
-  const CameraFrame frame = makeCameraFrame(camera, 3, 256);
 
   const std::vector<ProbeRay> rays = randomRays(800, 86, [](Numbers& numbers, int i) {
     const auto inPlane = [&](double size) {
@@ -485,64 +461,55 @@ Finding mirroredInAnyOrder(const Setup& setup) {
       const std::optional<std::size_t> first = firstHit(balls, ray);
       if (!first) return;
       ++seen;
-      finding.count(!shown(*first), described(ray));
+      run.count(!shown(*first), ray);
     };
 
-    const Probe probe(scene, setup, rays);
-    for (std::size_t i = 0; i < probe.size(); ++i) {
+    const Probe probe(scene, run, rays);
+    for (const auto i : indices(probe)) {
       expect(rays[i], [&](std::size_t first) {
         return probe.isHit(i) && probe.surfels().material[i] == first;
       });
     }
     // The middle column of pixels lies in the plane.
-    for (const Image& image :
-         picturesOf(scene, camera, optionsOf(setup, {frame.width, frame.height}))) {
-      for (int y = 0; y < image.height; ++y) {
-        const Vec3d d = normalized(frame.forward + asideOf(frame, 1, y));
-        expect({camera.eye, Vec3f(d)}, [&](std::size_t first) {
-          return image.at(1, y).x == static_cast<float>(first + 1) * kGlow;
-        });
-      }
+    for (const Image& image : picturesOf(scene, camera, optionsOf(run, {3, 256}))) {
+      forEachRay(camera, 3, 256, [&](const Vec3d&, const Vec3d& d, int x, int y) {
+        if (x != 1) return;
+        expect({camera.eye, Vec3f(d)},
+               [&](std::size_t first) { return image.at(1, y).x == float(first + 1) * kGlow; });
+      });
     }
   }
 
-  finding.count(seen < 1500, [] { return "too few rays that hit two spheres"; });
-  return finding;
+  run.count(seen < 1500, "too few rays that hit two spheres");
 }
-
-constexpr Case kSpherePathCases[] = {
-    {"H71g", "no ray that leaves a sphere hits it again",
-     "reflected and shadow rays, from radii of 1e-6 to 1e6 and up to the limb", Runs::packets,
-     leavingBalls},
-    {"H71h", "a ray that enters a sphere hits its far side once",
-     "rays in balls of glass, refracted and reflected, and rays that leave; against the chord",
-     Runs::packets, throughBalls},
-    {"H71i", "two spheres with 1e-5 of their radius between them",
-     "index 1: every boundary in its order, directions bit for bit", Runs::packets,
-     straightThroughShell},
-    {"H71j", "a shell of glass, thin as 1e-5 of its radius",
-     "rays through the center: boundaries, media, and how far they turn, over the bound",
-     Runs::packets, glassShell},
-    {"H71k", "the whispering gallery: 64 total reflections at one angle",
-     "drift of the sine over that of as many bounces", Runs::packets, whisperingGallery},
-    {"H71l", "the focus of a ball lens",
-     "heights of 0.001 to 0.1 radii; against the closed form, and the paraxial focus",
-     Runs::packets, ballLens},
-    {"H71m", "which of two coincident spheres is hit",
-     "opaque before glass, then by priority, then the later; as one object and as instances, "
-     "turned",
-     Runs::packets, ballsInOnePlace},
-    {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
-     "hits and pictures that differ from those of single rays and of other tiles", Runs::packets,
-     ballsInPackets},
-    {"H71o", "of two spheres at the same distance the later one is hit",
-     "40 pairs of mirror images that cross, in random order among others, seen from the plane of "
-     "the mirror; in the world, in one object, in objects of their own; rays and pixels",
-     Runs::packets, mirroredInAnyOrder},
-};
 
 }  // namespace
 
-std::span<const Case> spherePathCases() { return kSpherePathCases; }
+const Family kSpherePathCases{
+    "paths through spheres",
+    {{"H71g", "no ray that leaves a sphere hits it again",
+      "reflected and shadow rays, from radii of 1e-6 to 1e6 and up to the limb", leavingBalls},
+     {"H71h", "a ray that enters a sphere hits its far side once",
+      "rays in balls of glass, refracted and reflected, and rays that leave; against the chord",
+      throughBalls},
+     {"H71i", "two spheres with 1e-5 of their radius between them",
+      "index 1: every boundary in its order, directions bit for bit", straightThroughShell},
+     {"H71j", "a shell of glass, thin as 1e-5 of its radius",
+      "rays through the center: boundaries, media, and how far they turn, over the bound",
+      glassShell},
+     {"H71k", "the whispering gallery: 64 total reflections at one angle",
+      "drift of the sine over that of as many bounces", whisperingGallery},
+     {"H71l", "the focus of a ball lens",
+      "heights of 0.001 to 0.1 radii; against the closed form, and the paraxial focus", ballLens},
+     {"H71m", "which of two coincident spheres is hit",
+      "opaque before glass, then by priority, then the later; as one object and as instances, "
+      "turned",
+      ballsInOnePlace},
+     {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
+      "hits and pictures that differ from those of single rays and of other tiles", ballsInPackets},
+     {"H71o", "of two spheres at the same distance the later one is hit",
+      "40 pairs of mirror images that cross, in random order among others, seen from the plane of "
+      "the mirror; in the world, in one object, in objects of their own; rays and pixels",
+      mirroredInAnyOrder}}};
 
 }  // namespace whit::verify

@@ -27,61 +27,55 @@ void forAllSizes(std::initializer_list<double> distances, const MakeRays& makeRa
   for (const Ball& ball : ballsOfAllSizes(distances)) {
     const Scene scene = ball.scene(diffuseMaterial(1));
     const Probe probe(scene, setup, makeRays(ball));
-    for (std::size_t i = 0; i < probe.size(); ++i) visit(probe, ball, probe.ray(i), i);
+    for (const auto i : indices(probe)) visit(probe, ball, probe.ray(i), i);
   }
 }
 
 constexpr std::initializer_list<double> kDistances = {0, 1, 1e3, 1e6};
 
-Finding silhouettes(const Setup& setup) {
-  Finding finding(0);
+void silhouettes(Run& run) {
   std::size_t hits = 0, misses = 0;
-  forAllSizes(kDistances, raysTowards, setup,
+  forAllSizes(kDistances, raysTowards, run,
               [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
                 const BallChord chord = ball.chord(ray);
                 if (chord.aside > 0.99L && chord.aside < 1.01L) return;
                 const bool expected = chord.aside < 1 && chord.far > 0;
                 ++(expected ? hits : misses);
-                finding.count(probe.isHit(i) != expected, ball.described(ray));
+                run.count(probe.isHit(i) != expected, ball, ray);
               });
-  finding.count(hits < 1000 || misses < 1000, [] { return "too few rays of a kind"; });
-  return finding;
+  run.count(hits < 1000 || misses < 1000, "too few rays of a kind");
 }
 
-Finding pointsOnBalls(const Setup& setup) {
-  Finding finding(1);
+void pointsOnBalls(Run& run) {
+  run.boundBy(1);
   forAllSizes(
-      kDistances, raysTowards, setup,
+      kDistances, raysTowards, run,
       [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
         const BallChord chord = ball.chord(ray);
         if (!probe.isHit(i) || chord.aside > 0.99L) return;
 
-        const long double t = chord.near > 0 ? chord.near : chord.far;
+        const long double t = chord.ahead();
         const double over = ball.heightError();
         const double along = kWeightAngle * ball.r() + 2 * over;
         const Vec3l off = Vec3l(probe.position(i)) - (Vec3l(ray.origin) + Vec3l(ray.direction) * t);
         // The distance is rounded once; the double before it is off by less than a thousandth of
         // that rounding.
-        const auto far = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / t - 1);
+        const double far = double(probe.hits().t[i] / t - 1);
 
-        finding.note(std::max({std::fabs(ball.heightOf(probe.position(i))) / over,
-                               static_cast<double>(length(off)) / along,
-                               std::fabs(far) / (1.001 * kBallRounding)}),
-                     ball.described(ray));
+        run.note(std::max({std::fabs(ball.heightOf(probe.position(i))) / over,
+                           double(length(off)) / along, std::fabs(far) / (1.001 * kBallRounding)}),
+                 ball, ray);
       });
-  return finding;
 }
 
-Finding offsetOnBalls(const Setup& setup) {
-  Finding finding(1);
-  forAllSizes(kDistances, raysTowards, setup,
+void offsetOnBalls(Run& run) {
+  run.boundBy(1);
+  forAllSizes(kDistances, raysTowards, run,
               [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
                 if (!probe.isHit(i)) return;
                 const double height = std::fabs(ball.heightOf(probe.position(i)));
-                finding.note(height / static_cast<double>(probe.surfels().offset[i]),
-                             ball.described(ray));
+                run.note(height / probe.surfels().offset[i], ball, ray);
               });
-  return finding;
 }
 
 // Rays along the limb, off by up to 64 roundings; and rays along the axes, where nothing is rounded
@@ -124,27 +118,26 @@ double limbError(const Probe& probe, const Ball& ball, std::size_t i) {
   return std::fabs(outside * dot(n, d) + cosine * length(d)) / bound;
 }
 
-Finding tangentToBalls(const Setup& setup) {
-  Finding finding(1);
+void tangentToBalls(Run& run) {
+  run.boundBy(1);
   for (const Ball& ball : {Ball{}, Ball{{3, -2, 5}, 0.75f}, Ball{{0, 0, 0}, 1e5f}}) {
     const Scene scene = ball.scene(glassMaterial(1.5f));
-    Probe probe(scene, setup, tangentRays(ball));
-    for (std::size_t i = 0; i < probe.size(); ++i) {
+    Probe probe(scene, run, tangentRays(ball));
+    for (const auto i : indices(probe)) {
       const ProbeRay ray = probe.ray(i);
-      const auto inside = static_cast<double>(1 - ball.chord(ray).aside);
+      const double inside = double(1 - ball.chord(ray).aside);
       const bool wrong = probe.isHit(i) ? inside < -kLimbDoubt : inside > kLimbDoubt;
-      if (wrong) finding.note(kNoBound, ball.described(ray));
-      if (probe.isHit(i)) finding.note(limbError(probe, ball, i), ball.described(ray));
+      if (wrong) run.note(kNoBound, ball, ray);
+      if (probe.isHit(i)) run.note(limbError(probe, ball, i), ball, ray);
     }
 
     for (const auto& children : {probe.reflections(), probe.refractions()}) {
       for (const auto& [ray, weight, parent] : children) {
         const bool finite = isFinite(ray.origin) && isFinite(ray.direction) && isFinite(weight);
-        if (!finite) finding.note(kNoBound, ball.described(ray));
+        if (!finite) run.note(kNoBound, ball, ray);
       }
     }
   }
-  return finding;
 }
 
 // Rays from points on the sphere, off by up to eight roundings to both sides, in any direction.
@@ -163,25 +156,23 @@ constexpr long double kSlantest = 0.999L;
 
 // The error of the first intersection ahead; 1 is the rounding to float.
 double startError(const Probe& probe, const Ball& ball, const BallChord& chord, std::size_t i) {
-  const auto t = static_cast<double>(chord.near > 0 ? chord.near : chord.far);
+  const double t = double(chord.ahead());
   if (t <= 0) return probe.isHit(i) ? kNoBound : 0;
   if (!probe.isHit(i)) return kNoBound;
-  const auto found = static_cast<double>(probe.hits().t[i]);
-  return std::fabs(found - t) / (1.001 * kBallRounding * t + kStartDoubt * ball.r());
+  return std::fabs(probe.hits().t[i] - t) / (1.001 * kBallRounding * t + kStartDoubt * ball.r());
 }
 
-Finding startsOnBalls(const Setup& setup) {
-  Finding finding(1);
-  forAllSizes({0, 1, 100}, raysFromSurface, setup,
+void startsOnBalls(Run& run) {
+  run.boundBy(1);
+  forAllSizes({0, 1, 100}, raysFromSurface, run,
               [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
                 const BallChord chord = ball.chord(ray);
-                const long double doubt = kStartDoubt * static_cast<long double>(ball.radius);
+                const double doubt = kStartDoubt * ball.r();
                 // Neither a graze nor a start within the doubt has an answer.
                 if (!(chord.aside < kSlantest)) return;
                 if (std::fabs(chord.near) < doubt || std::fabs(chord.far) < doubt) return;
-                finding.note(startError(probe, ball, chord, i), ball.described(ray));
+                run.note(startError(probe, ball, chord, i), ball, ray);
               });
-  return finding;
 }
 
 // The map with the floats that the scene will hold.
@@ -248,15 +239,15 @@ double normalError(const Probe& probe, const Quadric& quadric, std::size_t i, bo
   const Vec3l gradient = quadric.gradient(Vec3l(ray.origin) + Vec3l(ray.direction) * t);
   const long double size = length(gradient);
 
-  const auto stretch = static_cast<double>(quadric.norm() / size);
-  const auto products = static_cast<double>(quadric.products / size);
+  const double stretch = double(quadric.norm() / size);
+  const double products = double(quadric.products / size);
   const double bound = stretch * (kWeightAngle + 6 * kBallRounding) + products * 3 * kBallRounding;
 
-  const auto cosine = static_cast<double>(dot(gradient, Vec3l(ray.direction)) / size);
+  const double cosine = double(dot(gradient, Vec3l(ray.direction)) / size);
   if (std::fabs(cosine) <= bound) return 0;  // the ray may hit either side there
   if (enters(probe, i) != entering) return kNoBound;
   const Vec3l outwards = Vec3l(probe.ng(i)) * (entering ? 1.0L : -1.0L);
-  return static_cast<double>(length(outwards - gradient / size)) / bound;
+  return double(length(outwards - gradient / size)) / bound;
 }
 
 std::vector<ProbeRay> raysOntoEllipsoid(const Affine& map) {
@@ -268,32 +259,26 @@ std::vector<ProbeRay> raysOntoEllipsoid(const Affine& map) {
   });
 }
 
-std::string describeEllipsoid(const Affine& map, const ProbeRay& ray) {
-  return hexText(Vec3f(map.x)) + ", " + hexText(Vec3f(map.y)) + ", " + hexText(Vec3f(map.z)) +
-         ", " + describeRay(ray);
-}
-
-Finding ellipsoids(const Setup& setup) {
-  Finding finding(1);
+void ellipsoids(Run& run) {
+  run.boundBy(1);
   for (const Affine& map : ellipsoidMaps()) {
     const Quadric quadric(map);
     // Rays pass straight through glass of index 1 and hit both faces.
     const Scene scene = sceneOf(exactSphere(0, map), glassMaterial(1));
 
-    Probe probe(scene, setup);
+    Probe probe(scene, run);
     std::vector<ProbeRay> rays = raysOntoEllipsoid(map);
     for (const bool entering : {true, false}) {
       probe.cast(rays);
-      for (std::size_t i = 0; i < probe.size(); ++i) {
+      for (const auto i : indices(probe)) {
         const bool clear = quadric.chord(rays[i]).aside < 0.999L;
         double error = clear ? kNoBound : 0;
         if (probe.isHit(i)) error = normalError(probe, quadric, i, entering);
-        finding.note(error, [&] { return describeEllipsoid(map, rays[i]); });
+        run.note(error, map.x, ", ", map.y, ", ", map.z, ", ", rays[i]);
       }
       rays = raysOf(probe.refractions());
     }
   }
-  return finding;
 }
 
 // Least cosine of a ray that looks away from the surface. A rounded eye may lie below the surface
@@ -302,72 +287,59 @@ Finding ellipsoids(const Setup& setup) {
 constexpr double kAway = 0x1p-9;
 
 // Counts the pixels that look away from the ball and do not show the sky.
-void lookAway(const Ball& ball, const Camera& camera, const Setup& setup, Finding& finding) {
+void lookAway(Run& run, const Ball& ball, const Camera& camera) {
   constexpr float kSky = 0.25f;
   SceneBuilder builder;
-  builder.add(ball.mesh(builder.add(emittingMaterial(1))));
+  builder.add(ball.mesh(), emittingMaterial(1));
   builder.sky(kSky);
 
-  const Image image = pictureOf(builder.build(), camera, optionsOf(setup, {24, 18}));
-  const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+  const Image image = pictureOf(builder.build(), camera, optionsOf(run, {24, 18}));
   const Vec3d out = normalized(Vec3d(camera.eye) - Vec3d(ball.center));
 
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const Vec3d d = normalized(frame.forward + asideOf(frame, x, y));
-      if (dot(d, out) < kAway) continue;
-      finding.count(image.at(x, y).x != kSky, ball.described({camera.eye, Vec3f(d)}));
-    }
-  }
+  forEachRay(camera, image.width, image.height, [&](const Vec3d&, const Vec3d& d, int x, int y) {
+    if (dot(d, out) < kAway) return;
+    run.count(image.at(x, y).x != kSky, ball, ProbeRay{camera.eye, Vec3f(d)});
+  });
 }
 
-Finding eyeOnABall(const Setup& setup) {
-  Finding finding(0);
+void eyeOnABall(Run& run) {
   Numbers numbers(75);
   for (const Ball& ball : {Ball{}, Ball{{0.3f, -7, 4}, 0.7f}, Ball{{0, -6e6f, 0}, 6e6f},
                            Ball{{200, 100, -300}, 0.5f}, Ball{{0, 0, 0}, 1e-4f}}) {
     for (int i = 0; i < 4; ++i) {
       const Vec3d out = numbers.direction(), along = across(out, numbers);
-      Camera camera;
-      camera.eye = Vec3f(ball.point(out, 1));
-      camera.up = Vec3f(out);
-      camera.fov = 90;
-
+      const Vec3f eye(ball.point(out, 1));
+      const double step = std::max(ball.r(), length(Vec3d(eye)));
       for (const Vec3d& towards : {out + along * 0.1, along + out * 0.1}) {
-        const double step = std::max(ball.r(), length(Vec3d(camera.eye)));
-        camera.at = Vec3f(Vec3d(camera.eye) + towards * step);
-        lookAway(ball, camera, setup, finding);
+        const Vec3f at(Vec3d(eye) + towards * step);
+        lookAway(run, ball, {.eye = eye, .at = at, .up = Vec3f(out), .fov = 90});
       }
     }
   }
-  return finding;
 }
-
-constexpr Case kSphereCases[] = {
-    {"H71", "exact spheres of any size are hit from any distance, and not beside",
-     "radii of 1e-6 to 1e6, up to 1e6 radii from the origin, seen from up to 1e7 radii; rays "
-     "within 0.99 of the silhouette that miss and beyond 1.01 that hit",
-     Runs::packets, silhouettes},
-    {"H71a", "points on spheres and their distance",
-     "the same spheres; height over the sphere, way along it and distance, over their bounds",
-     Runs::packets, pointsOnBalls},
-    {"H71b", "on spheres the offset bounds the error of the hit point",
-     "the same spheres; height over the sphere by the offset", Runs::packets, offsetOnBalls},
-    {"H71c", "rays along the limb of a sphere",
-     "64 roundings to both sides, and touching in one point; the cosine's error over its bound",
-     Runs::packets, tangentToBalls},
-    {"H71d", "rays that start on a sphere, or next to it",
-     "up to eight roundings to both sides; error of the first distance ahead over its bound",
-     Runs::packets, startsOnBalls},
-    {"H71e", "normals of ellipsoids, turned, sheared and mirrored",
-     "1 to 1000; both faces against the gradient of the quadric, over the bound", Runs::packets,
-     ellipsoids},
-    {"H71f", "an eye in the surface of a sphere does not see it",
-     "looking away and along; pixels that are not the sky", Runs::packets, eyeOnABall},
-};
 
 }  // namespace
 
-std::span<const Case> sphereCases() { return kSphereCases; }
+const Family kSphereCases{
+    "exact spheres",
+    {{"H71", "exact spheres of any size are hit from any distance, and not beside",
+      "radii of 1e-6 to 1e6, up to 1e6 radii from the origin, seen from up to 1e7 radii; rays "
+      "within 0.99 of the silhouette that miss and beyond 1.01 that hit",
+      silhouettes},
+     {"H71a", "points on spheres and their distance",
+      "the same spheres; height over the sphere, way along it and distance, over their bounds",
+      pointsOnBalls},
+     {"H71b", "on spheres the offset bounds the error of the hit point",
+      "the same spheres; height over the sphere by the offset", offsetOnBalls},
+     {"H71c", "rays along the limb of a sphere",
+      "64 roundings to both sides, and touching in one point; the cosine's error over its bound",
+      tangentToBalls},
+     {"H71d", "rays that start on a sphere, or next to it",
+      "up to eight roundings to both sides; error of the first distance ahead over its bound",
+      startsOnBalls},
+     {"H71e", "normals of ellipsoids, turned, sheared and mirrored",
+      "1 to 1000; both faces against the gradient of the quadric, over the bound", ellipsoids},
+     {"H71f", "an eye in the surface of a sphere does not see it",
+      "looking away and along; pixels that are not the sky", eyeOnABall}}};
 
 }  // namespace whit::verify
