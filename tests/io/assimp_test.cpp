@@ -80,7 +80,7 @@ void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) 
   for (const PlacedTriangle& t : triangles) {
     EXPECT_GT(dot(faceNormal(t), t.corners[0] - middle), 0);
     for (std::size_t k = 0; k < 3; ++k) {
-      expectNear(t.normals[k], faceNormal(t), 1e-5);
+      expectNearInFloat(t.normals[k], faceNormal(t), 1e-5);
       const auto near = [&](const Vec3d& p) { return length(p - t.corners[k]) < 1e-5; };
       EXPECT_TRUE(std::ranges::any_of(corners, near));
     }
@@ -98,7 +98,7 @@ TEST_F(Assimp, TextOfStlIsReadAsWell) {
   const SceneDescription scene = loadBytes("stl", corpusFile("stl/box.stl"));
   const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
   EXPECT_EQ(triangles.size(), 12u);
-  for (const PlacedTriangle& t : triangles) expectNear(t.normals[0], faceNormal(t), 1e-6);
+  for (const PlacedTriangle& t : triangles) expectNearInFloat(t.normals[0], faceNormal(t), 1e-6);
   EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(0.6f)) << "as other models without materials";
   expectNoWarnings();
 }
@@ -113,7 +113,7 @@ TEST_F(Assimp, ColorBitsOfStl) {
   const Rgb colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, gray};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const Rgb& color : triangles[i].colors) {
-      expectNear(Vec3d(color), Vec3d(colors[i]), 1e-6);
+      expectNearInFloat(Vec3d(color), Vec3d(colors[i]), 1e-6);
     }
   }
 
@@ -134,7 +134,7 @@ TEST_F(Assimp, NormalsAreSmoothedBelowAnAngle) {
     for (std::size_t k = 0; k < 3; ++k) {
       // Sides are smoothed into each other; the top and the bottom keep their own normal.
       const Vec3d radial{t.corners[k].x, t.corners[k].y, 0};
-      expectNear(t.normals[k], isSide ? radial : faceNormal(t), 1e-5);
+      expectNearInFloat(t.normals[k], isSide ? radial : faceNormal(t), 1e-5);
     }
   }
 

@@ -111,7 +111,7 @@ TEST_F(FarModels, BentMeshesOfGltfKeepTheirEdges) {
     for (const InstanceRecord& instance : scene.instances) {
       const std::vector<Vec3f>& corners = scene.geometries[instance.geometry].position;
       const Vec3d corner = instance.toWorld.point(Vec3d(corners.at(1)));
-      expectNear(scene.inFile(corner), {4e6 + 2, seconds, 0}, kRounding);
+      expectNearInFloat(scene.inFile(corner), {4e6 + 2, seconds, 0}, kRounding);
     }
   }
 }
@@ -126,9 +126,9 @@ TEST_F(FarModels, MovingNodesOfGltfAreInCoordinatesOfTheFile) {
 
   const auto expectAt = [&](double y) {
     const Vec3d right{4000000.1, y, 0};
-    expectNear(scene.inFile(scene.instances.at(1).toWorld.p), right, kRounding);
-    expectNear(scene.inFile(Vec3d(scene.cameras.at(0).eye)), right, kRounding);
-    expectNear(scene.inFile(Vec3d(scene.lights.at(0).position)), right, kRounding);
+    expectNearInFloat(scene.inFile(scene.instances.at(1).toWorld.p), right, kRounding);
+    expectNearInFloat(scene.inFile(Vec3d(scene.cameras.at(0).eye)), right, kRounding);
+    expectNearInFloat(scene.inFile(Vec3d(scene.lights.at(0).position)), right, kRounding);
   };
   expectAt(2);
   setPlace(scene, "/nodes/1", Affine::translation({4000000.1, 3, 0}));

@@ -36,7 +36,7 @@ void expectGrid(const SceneDescription& scene) {
       EXPECT_NEAR(p[k].z, std::abs(p[k].x - 0.5) < 0.1 ? 0.25 : 0, kPositionStep);
       EXPECT_NEAR(p[k].x * 2, std::round(p[k].x * 2), 2 * kPositionStep);
       EXPECT_NEAR(p[k].y * 2, std::round(p[k].y * 2), 2 * kPositionStep);
-      expectNear(Vec3d(mesh.normals.at(t[k])), {0, 0, 1}, kNormalStep);
+      expectNearInFloat(Vec3d(mesh.normals.at(t[k])), {0, 0, 1}, kNormalStep);
       EXPECT_NEAR(mesh.colors.at(t[k]).x, p[k].x, kColorStep);
       EXPECT_NEAR(mesh.colors.at(t[k]).y, p[k].y, kColorStep);
     }
@@ -175,10 +175,10 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
   for (const std::size_t i : {0u, 1u}) {
     const double x = i == 0 ? 1 : -1;
     expectTriangle(scene, {{0, 0, 0}, {x, 0, 0}, {0, x, 0}}, i, 1e-3);
-    expectNear(cornerOf(scene, 0, i), {0, 0, 0}, 1e-9);
+    expectNearInFloat(cornerOf(scene, 0, i), {0, 0, 0}, 1e-9);
   }
 
-  expectNear(Vec3d(meshOf(scene).normals.at(0)), {0, 0, 1}, 1e-3);
+  expectNearInFloat(Vec3d(meshOf(scene).normals.at(0)), {0, 0, 1}, 1e-3);
   EXPECT_EQ(errorOfText(replaced(text, "'buffer':0", "'buffer':1")),
             "3 m.gltf#/buffers/1: expected a buffer with data, found none");
 

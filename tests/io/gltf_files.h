@@ -186,7 +186,8 @@ class GltfTest : public SceneFileTest, protected GltfBuilder {
 
   static void expectTriangle(const SceneDescription& scene, const std::vector<Vec3d>& corners,
                              std::size_t i = 0, double tolerance = kPoseRounding) {
-    for (std::size_t k = 0; k < 3; ++k) expectNear(cornerOf(scene, k, i), corners[k], tolerance);
+    for (std::size_t k = 0; k < 3; ++k)
+      expectNearInFloat(cornerOf(scene, k, i), corners[k], tolerance);
   }
 };
 

@@ -56,7 +56,7 @@ TEST_F(GltfGeometry, NegativeScaleKeepsTheOutside) {
   const float* p = baked.triangles[0].position;
   const Vec3d normal = cross(Vec3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]),
                              Vec3d(p[6] - p[0], p[7] - p[1], p[8] - p[2]));
-  expectNear(normal, {0, 0, 1});
+  expectNearInFloat(normal, {0, 0, 1});
 }
 
 // Nodes that share a mesh are instances of one object. Without scenes all nodes are shown.
@@ -66,13 +66,13 @@ TEST_F(GltfGeometry, OnlyTheDefaultSceneIsShown) {
     const SceneDescription both = loadNodes(nodes + scenes);
     EXPECT_EQ(both.objects.size(), 1u);
     ASSERT_EQ(both.instances.size(), 2u);
-    expectNear(cornerOf(both, 1, 1), {6, 0, 0});
+    expectNearInFloat(cornerOf(both, 1, 1), {6, 0, 0});
   }
 
   const SceneDescription second =
       loadNodes(nodes + ",'scenes':[{'nodes':[0]},{'nodes':[1]}],'scene':1");
   ASSERT_EQ(second.instances.size(), 1u);
-  expectNear(cornerOf(second, 0), {5, 0, 0});
+  expectNearInFloat(cornerOf(second, 0), {5, 0, 0});
 }
 
 TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
@@ -117,7 +117,7 @@ TEST_F(GltfGeometry, PositionsOfEveryType) {
 
 TEST_F(GltfGeometry, MostNegativeNormalizedIntegerIsMinusOne) {
   const std::vector<std::int8_t> values{-128, -127, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
-  expectNear(cornerOf(loadAt(add("VEC3", values, 4, kNormalized)), 0), {-1, -1, 0});
+  expectNearInFloat(cornerOf(loadAt(add("VEC3", values, 4, kNormalized)), 0), {-1, -1, 0});
 }
 
 TEST_F(GltfGeometry, InterleavedAttributes) {
@@ -127,7 +127,7 @@ TEST_F(GltfGeometry, InterleavedAttributes) {
   const std::string uv = accessor(both, 5126, "VEC2", 3, ",'byteOffset':12");
 
   const SceneDescription scene = loadShown(primitive(position, ",'TEXCOORD_0':" + uv));
-  expectNear(cornerOf(scene, 2), {0, 1, 0});
+  expectNearInFloat(cornerOf(scene, 2), {0, 1, 0});
 
   // v points down in the file and up in a mesh.
   EXPECT_EQ(meshOf(scene).uvs, (std::vector<Vec2f>{{0.25f, 0.25f}, {0.5f, 0.0f}, {0.0f, 1.0f}}));
@@ -146,7 +146,7 @@ TEST_F(GltfGeometry, NormalsAreTakenOrFlat) {
   const std::string normal = ",'NORMAL':" + add("VEC3", up, 4, kNormalized);
   const std::string position = positions(kTriangleXyz);
 
-  expectNear(Vec3d(meshOf(loadShown(primitive(position, normal))).normals[1]), {0, 1, 0});
+  expectNearInFloat(Vec3d(meshOf(loadShown(primitive(position, normal))).normals[1]), {0, 1, 0});
   EXPECT_TRUE(meshOf(loadShown(primitive(position))).normals.empty());
 }
 
@@ -166,7 +166,7 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
   EXPECT_EQ(camera.name, "eye");
   expectMembers(camera, "{'fov': 30, 'aspect': 2, 'orthographicHeight': 0, 'eye': [3,0,0]}");
   // The camera looks along the node's -z, which a quarter turn about +y takes to -x.
-  expectNear(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
+  expectNearInFloat(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
   expectMembers(scene.cameras[1], "{'orthographicHeight': 3, 'aspect': 0.66666667}");  // twice ymag
   EXPECT_EQ(scene.width, 2 * scene.height);
 
@@ -219,7 +219,7 @@ TEST_F(GltfGeometry, ScenesPlaceModelsAndOverrideTheirMaterials) {
       "[0,0,4]}}]");
 
   ASSERT_EQ(scene.instances.size(), 2u);
-  expectNear(cornerOf(scene, 1, 1), {1, 0, 4});
+  expectNearInFloat(cornerOf(scene, 1, 1), {1, 0, 4});
   EXPECT_EQ(scene.materials[0].diffuse, Rgb(1, 0, 0));
   EXPECT_EQ(scene.materials[0].roughness, 0.125f);
   EXPECT_TRUE(scene.lights.empty());
@@ -247,9 +247,9 @@ TEST_F(GltfInstancing, CopiesStandWhereTheAttributesSay) {
   EXPECT_EQ(scene.objects.size(), 1u);
 
   // Scale, rotation, translation of the copy and translation of the node apply in this order.
-  expectNear(cornerOf(scene, 0), {1, 2, 8});
-  expectNear(cornerOf(scene, 1), {1, 4, 8});
-  expectNear(cornerOf(scene, 1, 1), {0, 0, 5});
+  expectNearInFloat(cornerOf(scene, 0), {1, 2, 8});
+  expectNearInFloat(cornerOf(scene, 1), {1, 4, 8});
+  expectNearInFloat(cornerOf(scene, 1, 1), {0, 0, 5});
   expectNoWarnings();
 }
 

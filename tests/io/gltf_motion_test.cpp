@@ -61,21 +61,21 @@ class GltfMotion : public GltfTest {
 TEST_F(GltfMotion, NodesMove) {
   const std::string text = moved(animation("translation", {1, 3}, {0, 0, 0, 4, 2, 0}));
 
-  expectNear(cornerOf(loadText(text), 0), {0, 0, 0});
-  expectNear(movedCorner(at(0, text), 0), {0, 0, 0});
-  expectNear(movedCorner(at(2.5, text), 0), {3, 1.5, 0});
-  expectNear(movedCorner(at(9, text), 1), {5, 2, 0});
+  expectNearInFloat(cornerOf(loadText(text), 0), {0, 0, 0});
+  expectNearInFloat(movedCorner(at(0, text), 0), {0, 0, 0});
+  expectNearInFloat(movedCorner(at(2.5, text), 0), {3, 1.5, 0});
+  expectNearInFloat(movedCorner(at(9, text), 1), {5, 2, 0});
   expectNoWarnings();
 }
 
 TEST_F(GltfMotion, NodesTurnAndGrow) {
   const float half = std::sqrt(0.5f);
   const std::string turned = moved(animation("rotation", {0, 1}, {0, 0, 0, 1, 0, 0, half, half}));
-  expectNear(movedCorner(at(0.5, turned), 1), {half, half, 0});
+  expectNearInFloat(movedCorner(at(0.5, turned), 1), {half, half, 0});
 
   const std::string grown =
       moved(animation("scale", {0, 1}, {1, 1, 1, 3, 1, 1}, 0, ",'interpolation':'STEP'"));
-  expectNear(movedCorner(at(0.5, grown), 1), {1, 0, 0});
+  expectNearInFloat(movedCorner(at(0.5, grown), 1), {1, 0, 0});
 }
 
 TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
@@ -83,9 +83,9 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
                     up = animation("translation", {0, 2}, {0, 0, 0, 0, 1, 0});
   const std::string text = moved(aside + "," + named("rise", up));
 
-  expectNear(movedCorner(at(2, text), 0), {1, 0, 0});
-  expectNear(movedCorner(at(2, text, "rise"), 0), {0, 1, 0});
-  expectNear(movedCorner(at(2, text, "animation 0"), 0), {1, 0, 0});
+  expectNearInFloat(movedCorner(at(2, text), 0), {1, 0, 0});
+  expectNearInFloat(movedCorner(at(2, text, "rise"), 0), {0, 1, 0});
+  expectNearInFloat(movedCorner(at(2, text, "animation 0"), 0), {1, 0, 0});
 
   EXPECT_EQ(errorOf([&] { at(2, text, "rose"); }),
             "2 m has no animation 'rose'; did you mean 'rise'?");
@@ -251,17 +251,17 @@ TEST_F(GltfMotion, MorphTargetsAddUp) {
   const std::string members =
       replaced(oneMesh(triangle(",'targets':[{'POSITION':" + one + "},{'POSITION':" + two + "}]")),
                "]}],'nodes'", "],'weights':[0.5,0.25]}],'nodes'");
-  expectNear(cornerOf(loadText(json(members)), 0), {0.5, 0, 0.5});
+  expectNearInFloat(cornerOf(loadText(json(members)), 0), {0.5, 0, 0.5});
 
   // The weights of the node replace those of the mesh.
   const std::string own = replaced(members, "{'mesh':0}", "{'mesh':0,'weights':[0,1]}");
-  expectNear(cornerOf(loadText(json(own)), 0), {0, 0, 2});
+  expectNearInFloat(cornerOf(loadText(json(own)), 0), {0, 0, 2});
 
   // An animation replaces both.
   const std::string weighted = played(animation("weights", {0, 1}, {0, 0, 1, 1}));
   const SceneDescription later = at(0.5, json(own + weighted));
-  expectNear(movedCorner(later, 0), {0.5, 0, 1});
-  expectNear(movedCorner(later, 1), {1, 0, 0});
+  expectNearInFloat(movedCorner(later, 0), {0.5, 0, 1});
+  expectNearInFloat(movedCorner(later, 1), {1, 0, 0});
   expectNoWarnings();
 }
 
@@ -332,17 +332,17 @@ TEST_F(GltfSkin, JointsArePlacedByHand) {
     return Vec3d(of.geometries.at(of.instances.at(0).geometry).position.at(i));
   };
 
-  expectNear(corner(scene, 2), {0, 2, 0});
+  expectNearInFloat(corner(scene, 2), {0, 2, 0});
   const Affine turned{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   setPlace(scene, "/nodes/2", turned);
   moveScene(scene, 0);
 
-  expectNear(corner(scene, 0), {0, 0, 0});
-  expectNear(corner(scene, 1), {0.5, 1.5, 0});
-  expectNear(corner(scene, 2), {-1, 1, 0});
+  expectNearInFloat(corner(scene, 0), {0, 0, 0});
+  expectNearInFloat(corner(scene, 1), {0.5, 1.5, 0});
+  expectNearInFloat(corner(scene, 2), {-1, 1, 0});
 
   // Copies that were made before keep their geometry.
-  expectNear(corner(shared, 2), {0, 2, 0});
+  expectNearInFloat(corner(shared, 2), {0, 2, 0});
   EXPECT_THROW(setPlace(scene, "/nodes/1", turned), Error);
 }
 
@@ -368,36 +368,36 @@ TEST_F(GltfSkin, ThousandsOfJointsHold) {
                  ",'nodes':[{'mesh':0,'skin':0},{'children':[" + list + "]}" + nodes + "]" +
                  played(animation("translation", {0, 2}, {0, 0, 0, 0, 2, 0}, 1))));
 
-  expectNear(movedCorner(scene, 0), {0, 1, 0});
-  expectNear(movedCorner(scene, 1), {5001, 2, 0});
-  expectNear(movedCorner(scene, 2), {8999, 3, 0});
+  expectNearInFloat(movedCorner(scene, 0), {0, 1, 0});
+  expectNearInFloat(movedCorner(scene, 1), {5001, 2, 0});
+  expectNearInFloat(movedCorner(scene, 2), {8999, 3, 0});
 }
 
 TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
   attributes = ",'NORMAL':" + positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
   const std::vector<Vec3f> normals = meshOf(loadText(text())).normals;
   ASSERT_EQ(normals.size(), 3u);
-  expectNear(Vec3d(normals[0]), {0, 0, 1});
-  expectNear(Vec3d(normals[1]), {std::sqrt(0.5), std::sqrt(0.5), 0});
-  expectNear(Vec3d(normals[2]), {-1, 0, 0});
+  expectNearInFloat(Vec3d(normals[0]), {0, 0, 1});
+  expectNearInFloat(Vec3d(normals[1]), {std::sqrt(0.5), std::sqrt(0.5), 0});
+  expectNearInFloat(Vec3d(normals[2]), {-1, 0, 0});
 }
 
 // A second set has the same joints once more.
 TEST_F(GltfSkin, WeightsOfAllSetsAreScaledToOne) {
   attributes = ",'JOINTS_1':" + add("VEC4", joints) + ",'WEIGHTS_1':" + floats("VEC4", weights);
-  expectNear(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
   attributes.clear();
   weights[4] = weights[5] = 2;
-  expectNear(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
 }
 
 TEST_F(GltfSkin, JointsThatAreMissingAreLeftOut) {
   joints[4] = 9;
-  expectNear(cornerOf(loadText(text()), 1), {0, 2, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), {0, 2, 0});
   expectWarned("joint that the skin does not have left out");
   weights[5] = 0;
   // The node, at x = 50, would show the corner there without a skin.
-  expectNear(cornerOf(loadText(text()), 1), {51, 1, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), {51, 1, 0});
   expectWarned("vertex that no joint holds placed by its node");
 }
 

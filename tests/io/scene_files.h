@@ -22,6 +22,7 @@
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "pi.h"
+#include "rounding.h"
 #include "scene/texture.h"
 #include "temporary_folder.h"
 
@@ -263,12 +264,10 @@ inline Vec3d cornerOf(const SceneDescription& scene, std::size_t corner, std::si
 // Positions and matrices are floats of about 1, as exact as this.
 inline constexpr double kPoseRounding = 1e-6;
 
-inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = kPoseRounding) {
-  EXPECT_LE(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
+inline void expectNearInFloat(const Vec3d& got, const Vec3d& wanted,
+                              double tolerance = kPoseRounding) {
+  expectNear(got, wanted, tolerance);
 }
-
-// Expects points to agree but for a few operations in double, on numbers below 100.
-inline void expectPoint(const Vec3d& a, const Vec3d& b) { expectNear(a, b, 1e-12); }
 
 // Returns the texture of a map of a material.
 inline const Texture& textureOf(const SceneDescription& scene, std::int32_t map) {

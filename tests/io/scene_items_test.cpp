@@ -13,15 +13,15 @@ TEST_F(SceneItems, TransformScalesThenRotatesThenTranslates) {
   const SceneDescription scene = loadMembers(
       "'scene': [{'model': 't.obj', 'transform': {'translate': [10,0,0],'rotate': [0,0,1,90], "
       "'scale': [2,3,4]}}]");
-  expectPoint(cornerOf(scene, 1), {10, 2, 0});
-  expectPoint(cornerOf(scene, 2), {7, 0, 0});
+  expectNear(cornerOf(scene, 1), {10, 2, 0});
+  expectNear(cornerOf(scene, 2), {7, 0, 0});
 
   // Lists of transforms apply the first first: (1,0,0) -> (2,0,0) -> (0,2,0) -> (0,0,2) ->
   // (5,6,11).
   const SceneDescription list = loadMembers(
       "'scene': [{'model': 't.obj', 'transform': [{'translate': [1,0,0]},{'rotate': [[0,0,1,90], "
       "[1,0,0,90]]}, {'matrix': [1,0,0,5, 0,1,0,6, 0,0,2,7]}]}]");
-  expectPoint(cornerOf(list, 1), {5, 6, 11});
+  expectNear(cornerOf(list, 1), {5, 6, 11});
 }
 
 // A scene file that states a mirror asks for the sum of mirror and color, also for a model.
@@ -97,8 +97,8 @@ TEST_F(SceneItems, GroupsAndRepeats) {
 
   // The step is in the parent's space and is therefore not scaled.
   for (std::size_t i = 0; i < 6; ++i) {
-    expectPoint(cornerOf(scene, 0, i),
-                {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
+    expectNear(cornerOf(scene, 0, i),
+               {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
   }
 
   const Scene baked = bake(scene);
@@ -133,7 +133,7 @@ TEST_F(SceneItems, ObjectsPlacedOnceAreBakedAndMoreOftenInstanced) {
       loadMembers(objects + ", {'use': 'pair', 'repeat': {'count': [2,1,1], 'step': [10,0,0]}}]");
   ASSERT_EQ(thrice.objects.size(), 1u);
   ASSERT_EQ(thrice.instances.size(), 6u);
-  expectPoint(cornerOf(thrice, 1, 5), {11, 0, 1});
+  expectNear(cornerOf(thrice, 1, 5), {11, 0, 1});
 }
 
 TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
@@ -146,7 +146,7 @@ TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
   const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.positions[1], Vec3f(-2, 0, 0));
   EXPECT_NE(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));  // a mirrored winding
-  expectPoint(cornerOf(scene, 2, 1), {3, 0, 0});
+  expectNear(cornerOf(scene, 2, 1), {3, 0, 0});
 }
 
 TEST_F(SceneItems, ObjectsMayNotContainThemselves) {

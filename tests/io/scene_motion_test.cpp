@@ -35,9 +35,9 @@ TEST_F(SceneMotionFile, KeysScaleThenTurnThenTranslate) {
       scene(item("'keys': [{'time': 1}, {'time': 3, 'translate': [4, 0, 2], 'rotate': [0, 0, 2, "
                  "180], 'scale': [3, 1, 1]}]"));
 
-  expectPoint(placed(at(0, moving), {1, 0, 0}), {1, 0, 0});
-  expectPoint(placed(at(2, moving), {1, 0, 0}), {2, 2, 1});
-  expectPoint(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
+  expectNear(placed(at(0, moving), {1, 0, 0}), {1, 0, 0});
+  expectNear(placed(at(2, moving), {1, 0, 0}), {2, 2, 1});
+  expectNear(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
 }
 
 // Far from the origin, `at` is moved so far ahead that its rounding does not turn the view.
@@ -55,7 +55,7 @@ TEST_F(SceneMotionFile, AnItemIsMovedFromWhereItsTransformPutsIt) {
   const std::string moving =
       scene(item("'keys': [{'time': 0}, {'time': 1, 'rotate': [0, 1, 0, 90]}]",
                  "'transform': {'translate': [2, 1, 0]}, "));
-  expectPoint(placed(at(1, moving)), {0, 1, -2});
+  expectNear(placed(at(1, moving)), {0, 1, -2});
 }
 
 TEST_F(SceneMotionFile, GroupsCarryWhatMovesInThem) {
@@ -66,9 +66,9 @@ TEST_F(SceneMotionFile, GroupsCarryWhatMovesInThem) {
                                    "], 'transform': {'translate': [5, 0, 0]}}], 'motion': {'keys': "
                                    "[{'time': 0}, {'time': 1, 'rotate': [0, 1, 0, 90]}]}}");
 
-  expectPoint(placed(at(1, moving)), {0, 0, -4});
-  expectPoint(placed(at(0.5, moving)),
-              {5 * std::sqrt(0.5) - std::sqrt(0.5), 0, -5 * std::sqrt(0.5) - std::sqrt(0.5)});
+  expectNear(placed(at(1, moving)), {0, 0, -4});
+  expectNear(placed(at(0.5, moving)),
+             {5 * std::sqrt(0.5) - std::sqrt(0.5), 0, -5 * std::sqrt(0.5) - std::sqrt(0.5)});
 }
 
 TEST_F(SceneMotionFile, StepsHoldAndCurvesGoThroughTheirKeys) {
@@ -79,16 +79,16 @@ TEST_F(SceneMotionFile, StepsHoldAndCurvesGoThroughTheirKeys) {
              "0]}, {'time': 2, 'translate': [9, 0, 0]}, {'time': 3, 'translate': [2, 0, 0]}]"));
   };
 
-  expectPoint(placed(at(1.9, keys("step"))), {3, 0, 0});
-  expectPoint(placed(at(2, keys("cubic"))), {9, 0, 0});
-  expectPoint(placed(at(1.5, keys("cubic"))), {(-1 + 9 * 3 + 9 * 9 - 2) / 16.0, 0, 0});
+  expectNear(placed(at(1.9, keys("step"))), {3, 0, 0});
+  expectNear(placed(at(2, keys("cubic"))), {9, 0, 0});
+  expectNear(placed(at(1.5, keys("cubic"))), {(-1 + 9 * 3 + 9 * 9 - 2) / 16.0, 0, 0});
 }
 
 TEST_F(SceneMotionFile, LoopsBeginAgain) {
   const std::string line = "'keys': [{'time': 1}, {'time': 3, 'translate': [4, 0, 0]}], 'loop': ";
-  expectPoint(placed(at(3.5, scene(item(line + "true")))), {1, 0, 0});
-  expectPoint(placed(at(0.5, scene(item(line + "true")))), {3, 0, 0});
-  expectPoint(placed(at(3.5, scene(item(line + "false")))), {4, 0, 0});
+  expectNear(placed(at(3.5, scene(item(line + "true")))), {1, 0, 0});
+  expectNear(placed(at(0.5, scene(item(line + "true")))), {3, 0, 0});
+  expectNear(placed(at(3.5, scene(item(line + "false")))), {4, 0, 0});
 }
 
 // In a closed loop the speed at the end is that at the beginning. It points from the key before to
@@ -161,7 +161,7 @@ TEST_F(SceneMotionFile, NothingIsPaidForWhereNoTimeIsGiven) {
 
   const SceneDescription still = loadMembers(moving);
   EXPECT_TRUE(still.motion.rig.empty());
-  expectPoint(placed(still), {2, 0, 0});
+  expectNear(placed(still), {2, 0, 0});
 
   ASSERT_EQ(still.animations.size(), 1u);
   EXPECT_EQ(still.animations[0].name, kSceneMotion);

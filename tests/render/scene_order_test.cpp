@@ -82,7 +82,7 @@ class SceneOrderOfFiles : public SceneFileTest {
     put("'L'", R"({"shape": "quad", "width": 6, "depth": 6.5, "material": "late"})");
     put("AWAY", R"("transform": {"translate": [30, 0, 0]})");
 
-    save("all.tga", tga(1, 1, {{255, 255, 255}}));
+    save("all.tga", tga({"ffffff"}));
     return Scene::finalize(loadMembers(R"("textures": {"all": {"image": "all.tga"}},
                        "materials": {"early": {"diffuse": 0, "emission": 0.25},
                                      "holes": {"diffuse": 0, "emission": 0.25, "alphaMap": "all"},
