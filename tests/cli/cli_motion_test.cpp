@@ -8,24 +8,21 @@ namespace {
 // A triangle that rises, and one that shrinks away to nothing.
 std::string movingModel() {
   GltfBuilder b;
-  const std::string shown = triangle(b);
-  const std::string times =
-      b.accessor(b.view(bytesOf<float>({0, 2})), 5126, "SCALAR", 2, ",\"min\":[0],\"max\":[2]");
-  const std::string up = b.positions({0, 0, 0, 0, 2, 0}), away = b.positions({1, 1, 1, 0, 0, 0});
-  const auto channel = [](int sampler, int node, const std::string& path) {
-    return "{\"sampler\":" + std::to_string(sampler) +
-           ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path + "\"}}";
+  const std::string shown = primitive(b.positions(kTriangleXyz)),
+                    times = b.floats("SCALAR", {0, 2}), up = b.positions({0, 0, 0, 0, 2, 0}),
+                    away = b.positions({1, 1, 1, 0, 0, 0});
+  const auto channel = [](int i, const std::string& path) {
+    return joined("{'sampler':", i, ",'target':{'node':", i, ",'path':'", path, "'}}");
   };
   const auto sampler = [&](const std::string& output) {
-    return "{\"input\":" + times + ",\"output\":" + output + "}";
+    return "{'input':" + times + ",'output':" + output + "}";
   };
 
-  return b.json(
-      "\"meshes\":[{\"primitives\":[" + shown +
-      "]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[2,0,0]}],\"animations\":[{"
-      "\"name\":\"up\",\"channels\":[" +
-      channel(0, 0, "translation") + "," + channel(1, 1, "scale") + "],\"samplers\":[" +
-      sampler(up) + "," + sampler(away) + "]}]");
+  return asJson(b.json(joined("'meshes':[{'primitives':[", shown,
+                              "]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[2,0,0]}],"
+                              "'animations':[{'name':'up','channels':[",
+                              channel(0, "translation"), ",", channel(1, "scale"), "],'samplers':[",
+                              sampler(up), ",", sampler(away), "]}]")));
 }
 
 class Motion : public TinySceneTest {
