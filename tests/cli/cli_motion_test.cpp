@@ -8,9 +8,10 @@ namespace {
 // A triangle that rises, and one that shrinks away to nothing.
 std::string movingModel() {
   GltfBuilder b;
+  // The length of an animation is the largest of its times, as the file says.
+  const std::string times = b.add<float>("SCALAR", {0, 2}, 0, ",'min':[0],'max':[2]");
   const std::string shown = primitive(b.positions(kTriangleXyz)),
-                    times = b.floats("SCALAR", {0, 2}), up = b.positions({0, 0, 0, 0, 2, 0}),
-                    away = b.positions({1, 1, 1, 0, 0, 0});
+                    up = b.positions({0, 0, 0, 0, 2, 0}), away = b.positions({1, 1, 1, 0, 0, 0});
   const auto channel = [](int i, const std::string& path) {
     return joined("{'sampler':", i, ",'target':{'node':", i, ",'path':'", path, "'}}");
   };
