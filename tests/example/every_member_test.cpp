@@ -163,8 +163,6 @@ const std::vector<Row<Light>> kLightRows{
     {"outerConeAngle", &Light::outerConeAngle, 40, kSpot},
 };
 
-constexpr std::array<std::uint8_t, 12> kDots{200, 30, 10, 20, 180, 90, 5, 60, 220, 255, 255, 255};
-
 SceneBuilder yard() {
   SceneBuilder builder("yard", R"({
     "cameras": {"main": {"eye": [0, 1.6, 4], "at": [0, 0.7, 0]}},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,9 +29,25 @@ inline Matrix placed(const Vector& at, const Vector& scale = {1, 1, 1}) {
   return {scale[0], 0, 0, at[0], 0, scale[1], 0, at[1], 0, 0, scale[2], at[2]};
 }
 
-inline bool samePictures(const Image& a, const Image& b) {
-  return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin(), b.rgb().end());
+// A picture as it is, or the next one of a renderer.
+struct Shown {
+  Shown(const Image& picture) : image(picture) {}           // NOLINT(google-explicit-constructor)
+  Shown(Renderer& renderer) : image(renderer.render()) {}   // NOLINT(google-explicit-constructor)
+  Shown(Renderer&& renderer) : image(renderer.render()) {}  // NOLINT(google-explicit-constructor)
+  Image image;
+};
+
+inline bool samePictures(const Shown& a, const Shown& b) {
+  return std::ranges::equal(a.image.rgb(), b.image.rgb());
 }
+
+// A sheet of two triangles, of which one is bent, as a camera sees it, and dots for its texture.
+inline constexpr std::array<float, 12> kBentCorners{-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0.5f, 1};
+inline constexpr std::array<std::uint32_t, 6> kHalves{0, 2, 1, 0, 3, 2};
+inline const Camera kSheetCamera{{0.5, 2, 4}, {0, 0, 0}};
+inline const Light kSheetLight{.position = {1, 4, 2}, .intensity = {30, 30, 30}};
+inline constexpr std::array<std::uint8_t, 12> kDots{200, 30, 10,  20,  180, 90,
+                                                    5,   60, 220, 255, 255, 255};
 
 // Returns what `body` throws, or an error of status 0 if it throws nothing.
 inline Error errorOf(const std::function<void()>& body) {

@@ -10,15 +10,11 @@
 namespace whit::api {
 namespace {
 
-constexpr std::array<float, 12> kCorners{-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0.5f, 1};
 constexpr std::array<float, 8> kUvs{0, 0, 2, 0, 2, 1, 0, 1};
-constexpr std::array<std::uint32_t, 6> kTriangles{0, 2, 1, 0, 3, 2};
-constexpr std::array<std::uint8_t, 12> kCodes{200, 30, 10, 20, 180, 90, 5, 60, 220, 255, 255, 255};
-const Camera kCamera{{0.5, 2, 4}, {0, 0, 0}};
 
-MeshArrays sheet() { return {.positions = kCorners, .triangles = kTriangles, .uvs = kUvs}; }
+MeshArrays sheet() { return {.positions = kBentCorners, .triangles = kHalves, .uvs = kUvs}; }
 
-ImageArrays picture() { return {2, 2, 3, kCodes}; }
+ImageArrays picture() { return {2, 2, 3, kDots}; }
 
 // Has a mesh, a texture, a material, a camera and a light, and no instance yet.
 SceneBuilder sheetBuilder() {
@@ -29,8 +25,8 @@ SceneBuilder sheetBuilder() {
   red.diffuse = {0.75, 0.5, 0.25};
   red.diffuseMap = "dots";
   builder.addMaterial("red", red);
-  builder.addCamera("front", kCamera);
-  builder.addLight({.position = {1, 4, 2}, .intensity = {30, 30, 30}});
+  builder.addCamera("front", kSheetCamera);
+  builder.addLight(kSheetLight);
   return builder;
 }
 
@@ -46,8 +42,8 @@ std::string writeSheets(const TemporaryFolder& folder) {
 
   DisplayImage image;
   image.width = image.height = 2;
-  for (std::size_t i = 0; i < kCodes.size(); i += 3) {
-    image.rgba.insert(image.rgba.end(), {kCodes[i], kCodes[i + 1], kCodes[i + 2], 255});
+  for (std::size_t i = 0; i < kDots.size(); i += 3) {
+    image.rgba.insert(image.rgba.end(), {kDots[i], kDots[i + 1], kDots[i + 2], 255});
   }
   writePng(folder / "dots.png", image, {});
 
@@ -72,14 +68,14 @@ TEST(SceneBuilder, MakesThePictureOfFiles) {
 
   const Scene scene = builder.build();
   EXPECT_EQ(builder.addLight({}), "/lights/1");
-  EXPECT_EQ(builder.addCamera("a/b", kCamera), "/cameras/a~1b");
+  EXPECT_EQ(builder.addCamera("a/b", kSheetCamera), "/cameras/a~1b");
   EXPECT_EQ(builder.addMaterial("blue", {}), "/materials/blue");
   EXPECT_EQ(scene.name(), "sheets");
   EXPECT_EQ(scene.triangles(), 4u);
   EXPECT_EQ(scene.cameras(), std::vector<std::string>{"front"});
 
   const Image image = smallRenderer(scene).render();
-  EXPECT_TRUE(samePictures(image, smallRenderer(writeSheets(folder)).render()));
+  EXPECT_TRUE(samePictures(image, smallRenderer(writeSheets(folder))));
   EXPECT_GT(std::ranges::max(image.rgb()), 0.25f);
 }
 
@@ -88,7 +84,7 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   builder.addInstance("sheet", "red");
   const Image plain = pictureBuiltBy(builder);
 
-  Camera camera = kCamera;
+  Camera camera = kSheetCamera;
   camera.projection = "equisolid";
   camera.angle = 90;
   builder.addCamera("front", camera);
@@ -99,9 +95,9 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   EXPECT_FALSE(samePictures(round, plain));
 
   // A camera in JSON holds until an empty one takes it back.
-  EXPECT_TRUE(samePictures(
-      renderer.lookThrough(R"({"eye": [0.5, 2, 4], "at": [0, 0, 0]})").render(), plain));
-  EXPECT_TRUE(samePictures(renderer.lookThrough("").render(), round));
+  EXPECT_TRUE(
+      samePictures(renderer.lookThrough(R"({"eye": [0.5, 2, 4], "at": [0, 0, 0]})"), plain));
+  EXPECT_TRUE(samePictures(renderer.lookThrough(""), round));
 
   camera.aperture = 0.1;  // a panorama has no aperture
   camera.projection = "panorama";
@@ -120,7 +116,7 @@ TEST(SceneBuilder, VerticesComeInThreesWithoutTriangles) {
 }
 
 TEST(SceneBuilder, MemoryIsHeldUntilItIsReadForTheLastTime) {
-  auto owned = std::make_shared<std::vector<float>>(kCorners.begin(), kCorners.end());
+  auto owned = std::make_shared<std::vector<float>>(kBentCorners.begin(), kBentCorners.end());
   const std::weak_ptr<std::vector<float>> watched = owned;
   {
     SceneBuilder builder = sheetBuilder();
@@ -190,7 +186,7 @@ TEST(SceneBuilder, WhatIsWrongHasItsPlace) {
        }},
       member("/materials/red/roughness", "2", "a number from 0 to 1"),
       member("/textures/dots/array", "\"dot\"", "the name of an array (is \"dots\" meant?)"),
-      texture({3, 2, 3, kCodes}, "width * height * channels numbers"),
+      texture({3, 2, 3, kDots}, "width * height * channels numbers"),
       texture({-1, 1, 3}, "1 to 65536 pixels"),
   };
 

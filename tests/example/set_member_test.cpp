@@ -122,7 +122,7 @@ TEST(SetMember, LeavesTheSceneAsItWasWhereMemoryEnds) {
     const Error error = errorOf(edit);
     allocationsLeft = kManyAllocations;
     ASSERT_EQ(error.status(), 5) << last;
-    EXPECT_TRUE(samePictures(renderer.render(), before)) << last;
+    EXPECT_TRUE(samePictures(renderer, before)) << last;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
     renderer.render();
   }
   EXPECT_GT(settings.size(), 15u);
-  EXPECT_TRUE(samePictures(renderer.render(), whittedWith(settings).render()));
+  EXPECT_TRUE(samePictures(renderer, whittedWith(settings)));
 }
 
 // An aperture goes as it comes, and occlusion counts only where it is sampled.
@@ -145,11 +145,11 @@ TEST(SetMember, HasNoEffectWithoutWhatItNeeds) {
   renderer.setMember("/cameras/main/aperture", "0.4").render();
   bool built = false;
   watchBuilding(renderer, built);
-  EXPECT_TRUE(samePictures(renderer.setMember("/cameras/main/aperture", "0").render(), sharp));
+  EXPECT_TRUE(samePictures(renderer.setMember("/cameras/main/aperture", "0"), sharp));
   EXPECT_FALSE(built);
 
   const Image open = renderer.setMember("/ambient", R"({"fromSky": 0.5, "occlusion": 2})").render();
-  EXPECT_FALSE(samePictures(renderer.set("ambient-samples", "4").render(), open));
+  EXPECT_FALSE(samePictures(renderer.set("ambient-samples", "4"), open));
 }
 
 TEST(SetMember, TheSameMemberAgainIsOneSetting) {
@@ -184,7 +184,7 @@ TEST(SetMember, WhatWasMovedStaysMoved) {
   options.settings = {"/scene/1/radius=0.5"};
   Renderer other = smallRenderer("whitted", options);
   const Image rest = other.render(), moved = renderer.render();
-  EXPECT_TRUE(samePictures(moved, other.setTransform("/scene/3", place).render()));
+  EXPECT_TRUE(samePictures(moved, other.setTransform("/scene/3", place)));
   EXPECT_FALSE(samePictures(rest, moved));
 }
 
@@ -198,8 +198,7 @@ TEST(SetMember, ScenesThatMoveKeepTheirTime) {
   for (const Member& member : kChanges) {
     renderer.setMember(member.pointer, member.value);
     options.settings.push_back(settingOf(member));
-    EXPECT_TRUE(
-        samePictures(renderer.render(), smallRenderer("orrery", options).setTime(3.5).render()))
+    EXPECT_TRUE(samePictures(renderer, smallRenderer("orrery", options).setTime(3.5)))
         << member.pointer;
   }
 }

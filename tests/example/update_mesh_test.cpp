@@ -11,8 +11,6 @@ namespace {
 
 using Corners = std::array<float, 12>;
 constexpr Corners kFlatCorners{-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1};
-constexpr Corners kBentCorners{-1, 0, -1, 1, 0.25f, -1, 1, 0, 1, -1, 0.5f, 1};
-constexpr std::array<std::uint32_t, 6> kHalves{0, 2, 1, 0, 3, 2};
 
 MeshArrays sheet(const Corners& corners) { return {.positions = corners, .triangles = kHalves}; }
 
@@ -20,8 +18,8 @@ Scene sheetScene(const Corners& corners) {
   SceneBuilder builder("sheets");
   builder.addMesh("sheet", sheet(corners));
   builder.addInstance("sheet");
-  builder.addCamera("front", {{0.5, 2, 4}, {0, 0, 0}});
-  builder.addLight({.position = {1, 4, 2}, .intensity = {30, 30, 30}});
+  builder.addCamera("front", kSheetCamera);
+  builder.addLight(kSheetLight);
   return builder.build({.movable = {"/scene/0"}});
 }
 
@@ -31,12 +29,12 @@ TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
   const Image bent = smallRenderer(sheetScene(kBentCorners)).render();
   ASSERT_FALSE(samePictures(flat, bent));
 
-  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kBentCorners)).render(), bent));
-  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kFlatCorners)).render(), flat));
+  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kBentCorners)), bent));
+  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kFlatCorners)), flat));
 
   MeshArrays half = sheet(kBentCorners);
   half.triangles = half.triangles.first(3);
-  EXPECT_FALSE(samePictures(renderer.updateMesh("sheet", half).render(), bent));
+  EXPECT_FALSE(samePictures(renderer.updateMesh("sheet", half), bent));
   EXPECT_EQ(renderer.scene().triangles(), 1u);
 }
 
@@ -49,12 +47,12 @@ TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
   }
   renderer.updateMesh("sheet", sheet(kBentCorners));
   const Image picture = renderer.render();
-  EXPECT_TRUE(samePictures(picture, expected.render()));
+  EXPECT_TRUE(samePictures(picture, expected));
   EXPECT_EQ(picture.width(), 40);
 
   // A member for which the scene is read again finds the new arrays.
   renderer.setMember("/materials/unused", R"({"diffuse": 0.5})");
-  EXPECT_TRUE(samePictures(renderer.render(), picture));
+  EXPECT_TRUE(samePictures(renderer, picture));
 }
 
 // As do members and transforms.
@@ -72,9 +70,9 @@ TEST(UpdateMesh, LeavesTheScenesOfOthersAlone) {
   for (const auto& change : changes) {
     Renderer changed = smallRenderer(scene);
     change(changed);
-    EXPECT_FALSE(samePictures(changed.render(), before));
-    EXPECT_TRUE(samePictures(other.render(), before));
-    EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+    EXPECT_FALSE(samePictures(changed, before));
+    EXPECT_TRUE(samePictures(other, before));
+    EXPECT_TRUE(samePictures(smallRenderer(scene), before));
   }
 }
 
@@ -91,7 +89,7 @@ TEST(UpdateMesh, RefusesWhatIsNoMesh) {
   const Error refused = errorOf([&] { renderer.updateMesh("sheet", sheet(infinite)); });
   EXPECT_EQ(refused.status(), 3);
   EXPECT_EQ(refused.place(), "/scene/0/mesh");
-  EXPECT_TRUE(samePictures(renderer.render(), before));
+  EXPECT_TRUE(samePictures(renderer, before));
 
   Renderer file = smallRenderer("whitted");
   EXPECT_EQ(statusOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }), 2);

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 import whit
-from samples import (SIZE, assert_same, error_of, expect_picture, pixels, scene_of, square,
-                     square_scene, temporary_folder)
+from samples import (SIZE, assert_other, assert_same, error_of, expect_picture, pixels, scene_of,
+                     square, square_scene, temporary_folder)
 
 SHAPE_SCENE = """{"whit": 1,
   "cameras": {"above": {"eye": [0, 3, 2], "at": [0, 0, 0], "fov": 50}},
@@ -69,7 +69,7 @@ class Arrays(unittest.TestCase):
         assert_array_equal(picture({"array": codes, "wrap": "repeat"}), expected)
         # Textures are kept in 10 bits of the square root, to which both are rounded.
         assert_allclose(picture(linear), expected, atol=2e-3)
-        self.assertFalse(np.array_equal(pixels(scene_of()), expected))
+        assert_other(scene_of(), expected)
 
     def test_one_mesh_in_two_places_is_kept_once(self):
         mesh = square()
@@ -90,11 +90,11 @@ class Arrays(unittest.TestCase):
         scene = placed(np.eye(4))
         rest = pixels(scene)
         scene.set_transform("/scene/0", place)
-        self.assertFalse(np.array_equal(rest, pixels(scene)))
+        assert_other(rest, scene)
         there = placed(place)
         assert_same(scene, there)
         scene.set_transform("/scene/0", np.eye(4)[:3])
-        assert_array_equal(rest, pixels(scene))
+        assert_same(rest, scene)
         # The item's own transform is applied first.
         there.set_transform("/scene/0", turn)
         assert_same(there, placed(turn @ place))
@@ -105,23 +105,16 @@ class Arrays(unittest.TestCase):
         rest = pixels(scene)
         positions = mesh.positions + np.array([0, 0.5, 0.25], np.float32)
         expected = pixels(scene_of(square(positions=positions)))
-        self.assertFalse(np.array_equal(expected, rest))
+        assert_other(expected, rest)
 
         moving = positions.astype(np.float64)
         scene.update_mesh("sheet", moving)
         moving[:] = 0  # the scene has a copy
         for moved in (scene, copy.copy(scene)):
-            assert_array_equal(pixels(moved), expected)
+            assert_same(moved, expected)
         self.assertAlmostEqual(float(scene.closest([0, 2, 0], [0, -1, 0]).t), 1.5)
         scene.update_mesh("sheet", mesh.positions)
-        assert_array_equal(pixels(scene), rest)
-
-        # Members that were set before stay.
-        scene.set("/lights/0/intensity", 6)
-        dim = pixels(scene)
-        scene.update_mesh("sheet", positions)
-        scene.update_mesh("sheet", mesh.positions)
-        assert_array_equal(pixels(scene), dim)
+        assert_same(scene, rest)
 
     def test_other_arrays_of_a_mesh(self):
         normals, tilted = np.tile([[[0, 1, 0]], [[0.6, 0.8, 0]]], (1, 4, 1))
@@ -144,16 +137,13 @@ class Arrays(unittest.TestCase):
         for place, expected, arguments in (
                 ("name", "'sheet'", ("shet", corners)),
                 ("positions", "(4, 3)", ("sheet", corners[:3])),
-                ("positions", "(n, 3)", ("sheet", None)),
-                ("/scene/0/mesh", "finite", ("sheet", corners * np.nan))):
+                ("positions", "(n, 3)", ("sheet", None))):
             with self.subTest(place=place, expected=expected):
                 self.expect(place, expected, scene.update_mesh, *arguments)
         self.expect("/scene/0/mesh", "normals", scene.update_mesh, "sheet", corners,
                     normals=[[0, 1, 0]])
         self.expect("update_mesh", "a dict", whit.Scene("whitted").update_mesh, "a", corners)
-        assert_array_equal(pixels(scene), rest)
-        scene.set("/materials/red/diffuseMap", None)  # reads the scene again
-        assert_array_equal(pixels(scene), rest)
+        assert_same(scene, rest)
 
         items = [{"mesh": mesh}, {"mesh": square(name="sheet")}]
         self.expect("/scene/1/mesh", "different names", scene_of, scene=items)
@@ -181,16 +171,12 @@ class Arrays(unittest.TestCase):
             with self.subTest(arrays=arrays):
                 self.expect(*arrays, expected, square, **arrays)
 
-        nan = square().positions * [1, np.nan, 1]
+        # SceneBuilder.WhatIsWrongHasItsPlace has all of a mesh; these are told apart by name.
         for expected, arrays in (
-                ("vertices below 4", {"triangles": [[0, 1, 4]]}),
-                ("finite numbers in positions", {"positions": nan}),
                 ("finite numbers in positions", {"positions": square().positions * 1e300}),
-                ("finite numbers in normals", {"normals": nan}),
                 ("normals for 4 vertices", {"normals": np.ones((3, 3))}),
                 ("uvs for 4 vertices", {"uvs": np.ones((5, 2))}),
-                ("numbers from 0", {"colors": np.full((4, 3), 1.5)}),
-                ("a multiple of 3 vertices", {"triangles": None})):
+                ("numbers from 0", {"colors": np.full((4, 3), 1.5)})):
             with self.subTest(arrays=arrays):
                 self.expect("/scene/0/mesh", expected, scene_of, square(**arrays))
 
@@ -215,14 +201,12 @@ class Arrays(unittest.TestCase):
         loop.append(loop)
         for place, members in (
                 ("/lights/0/intensity", {"lights": [{"position": [0, 1, 0], "intensity": np.nan}]}),
-                ("/lights/0/intensity", {"lights": [{"position": [0, 1, 0], "intensity": -1}]}),
                 ("/lights/0", {"lights": [{"intensity": 1}]}),
                 ("/sky/image", {"sky": {"image": "/etc/passwd"}}),
                 ("/materials/red/diffuse/2", {"materials": {"red": {"diffuse": [0, 0, 2]}}}),
                 ("/cameras/a~1b", {"cameras": {"a/b": {"eye": [0, 0, 0], "at": [0, 0, 0]}}}),
                 ("/scene/0/mesh", {"scene": [{"mesh": "nothing"}]}),
                 ("/ambient/color", {"ambient": {"color": object()}}),
-                ("/nonsense", {"nonsense": 1}),
                 ("/lights", {"lights": {1: 2}})):
             with self.subTest(place=place):
                 self.expect(place, "", scene_of, **members)

@@ -7,11 +7,10 @@ import time
 import unittest
 from pathlib import Path
 
-import numpy as np
 
 import whit
-from samples import (LONG, SIZE, another_thread_rendering, error_of, pixels, python, scene_of,
-                     temporary_folder)
+from samples import (LONG, SIZE, another_thread_rendering, assert_same, error_of, pixels, python,
+                     scene_of, temporary_folder)
 
 
 class Control(unittest.TestCase):
@@ -20,7 +19,7 @@ class Control(unittest.TestCase):
         self.expected = pixels(self.scene).copy()
 
     def tearDown(self):
-        np.testing.assert_array_equal(pixels(self.scene), self.expected)
+        assert_same(self.scene, self.expected)
 
     def test_progress_is_told_and_ends_the_work(self):
         told = []

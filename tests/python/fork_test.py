@@ -12,8 +12,8 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 import whit
-from samples import (SECONDS, SIZE, another_thread_rendering, expect_in_processes, in_threads,
-                     pixels, python, scene_of, temporary_folder)
+from samples import (SECONDS, SIZE, another_thread_rendering, assert_same, expect_in_processes,
+                     in_threads, pixels, python, scene_of, temporary_folder)
 
 
 def status_of_child(body):
@@ -41,7 +41,7 @@ class Fork(unittest.TestCase):
         self.assertEqual(status_of_child(body), 0)
 
     def render(self):
-        assert_array_equal(pixels(self.scene), self.expected)
+        assert_same(self.scene, self.expected)
 
     def test_a_child_renders(self):
         self.in_child(self.render)
@@ -57,8 +57,8 @@ class Fork(unittest.TestCase):
 
         def build():
             self.scene.set_time(2)
-            assert_array_equal(pixels(self.scene), later)
-            assert_array_equal(pixels(whit.Scene("orrery", moves=True)), self.expected)
+            assert_same(self.scene, later)
+            assert_same(whit.Scene("orrery", moves=True), self.expected)
             pixels(scene_of())
             del self.scene
 
@@ -81,7 +81,7 @@ class Fork(unittest.TestCase):
     def test_a_scene_rendered_in_another_thread(self):
         [scene] = in_threads(whit.Scene, ["whitted"])
         [expected] = in_threads(pixels, [scene])
-        self.in_child(lambda: assert_array_equal(pixels(scene), expected))
+        self.in_child(lambda: assert_same(scene, expected))
 
     def test_pictures_are_written(self):
         with temporary_folder():

@@ -9,10 +9,9 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from numpy.testing import assert_array_equal
 
 import whit
-from samples import SIZE, error_of, pixels, scene_of, square_scene, temporary_folder
+from samples import SIZE, assert_same, error_of, scene_of, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
@@ -88,11 +87,7 @@ class Messages(unittest.TestCase):
                 (2, r"movable=\[...\]", scene.set_transform, "/scene/0", np.eye(4)),
                 (3, r"whit.Mesh\(...\)", scene.update_mesh, "x", np.zeros((3, 3))),
                 (2, "^'lights=4': expected a JSON pointer such", scene.set, "lights", 4),
-                (3, "intensity", scene.set, "/lights/0/intensity", "much"),
                 (3, "intensity", scene.set, "/lights/0/intensity", float("inf")),
-                (3, "lights/9", scene.set, "/lights/9/intensity", 4),
-                (3, "nonsense", scene.set, "/nonsense", 4),
-                (3, "radius", scene.set, "/scene/1/radius", -1),
                 (3, '^camera: .* member "at"', whit.Camera, {"eye": [0, 0, 5]}, SIZE),
                 (3, '^camera: .* member "eye"', whit.Camera, {"at": [0, 0, 5]}, SIZE),
                 (2, r"no channel 'albedo': render\(channels=\['albedo'\]\)$",
@@ -103,7 +98,7 @@ class Messages(unittest.TestCase):
                 (3, "/lights", whit.Scene, {"lights": 4})):
             self.expect(status, words, call, *arguments)
         # None of them changes the scene.
-        assert_array_equal(pixels(scene), picture.rgb)
+        assert_same(scene, picture.rgb)
 
     def test_errors_of_files_are_those_of_the_system(self):
         picture = whit.Scene("whitted").render(size=SIZE)

@@ -142,6 +142,16 @@ def pixels(scene):
     return scene.render(size=SIZE).rgb
 
 
+def _picture(shown):
+    return pixels(shown) if isinstance(shown, whit.Scene) else shown
+
+
 def assert_same(one, other):
-    """Expects the same picture of two scenes, bit for bit."""
-    assert_array_equal(pixels(one), pixels(other))
+    """Expects the same picture, bit for bit, of two scenes, or of a scene and a picture."""
+    assert_array_equal(_picture(one), _picture(other))
+
+
+def assert_other(one, other):
+    """Expects two pictures, of scenes or as they are, to differ."""
+    if np.array_equal(_picture(one), _picture(other)):
+        raise AssertionError("the pictures are the same")

@@ -18,11 +18,7 @@ RenderOptions noisy(int spp) {
   return o;
 }
 
-class Accumulating : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override { scene_ = load(GetParam()); }
-  Scene scene_;
-};
+using Accumulating = SceneTest;
 
 // The samples are rendered in three ranges, and each range in two bands of columns.
 TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
@@ -44,7 +40,7 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
     }
   }
 
-  EXPECT_EQ(firstDifference(whole.image, expected.image), "");
+  EXPECT_EQ(firstDifference(whole, expected), "");
 
   // The sums do not depend on the ranges either.
   SampleSums atOnce(whole.image.window);
@@ -67,8 +63,6 @@ TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
     renderer.render({.camera = camera, .film = film, .part = part, .sums = &sums});
     const double rmse = compareImages(film.image, best.image).rmse;
     const double said = sums.relativeError(part.end);
-    std::printf("%s: %d samples, RMSE %.5f, said to be within %.5f of the mean radiance\n",
-                GetParam().c_str(), part.end, rmse, said);
 
     EXPECT_LT(rmse, last);
     EXPECT_LT(said, lastSaid);

@@ -17,11 +17,7 @@ RenderOptions withSamples(int spp, bool adaptive) {
 
 bool sameBits(const Rgb& a, const Rgb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-class Adaptive : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override { scene_ = load(GetParam()); }
-  Scene scene_;
-};
+using Adaptive = SceneTest;
 
 // With no more samples than probes, each pixel has the bits of a picture of one sample or of all.
 TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
@@ -41,8 +37,6 @@ TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
   // Every pixel has a ray of the first pass; refined pixels have those of the probes besides.
   const std::uint64_t rays = adaptive.stats.of(RayKind::primary).rays;
   const std::uint64_t refined = (rays - pixels) / kProbeSamples;
-  std::printf("%s: %.1f %% of pixels refined\n", GetParam().c_str(),
-              100.0 * static_cast<double>(refined) / static_cast<double>(pixels));
   EXPECT_EQ(rays, pixels + kProbeSamples * refined);
   EXPECT_GE(refined, changed);
   EXPECT_GT(changed, 0u);
@@ -68,8 +62,6 @@ TEST_P(Adaptive, ContrastingPixelsGetEverySample) {
     whole += sameBits(adaptive.image.pixels[i], all.image.pixels[i]);
   }
 
-  std::printf("%s: %llu pixels with every sample\n", GetParam().c_str(),
-              static_cast<unsigned long long>(contrasting));
   EXPECT_GT(contrasting, 0u);
   EXPECT_GE(whole, contrasting);
   EXPECT_LT(contrasting, all.image.pixels.size());
@@ -89,12 +81,9 @@ TEST_P(Adaptive, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
 TEST_P(Adaptive, AgreesWithTheReference) {
   const RenderOptions o = withSamples(9, true);
   const BothModes both = renderBoth(scene_, o);
-  const ImageDifference d = differenceOf(both);
   // The bound is twice that of pictures without decisions between neighbors, because pixels within
   // rounding of the threshold may be refined by one of the two alone.
-  std::printf("%s: %.4f %% of pixels off by two codes or more (at most 0.2)\n", GetParam().c_str(),
-              d.pixelsGe2CodesPct);
-  EXPECT_LE(d.pixelsGe2CodesPct, 0.2);
+  EXPECT_LE(differenceOf(both).pixelsGe2CodesPct, 0.2);
 
   const auto primary = static_cast<double>(both.reference.stats.of(RayKind::primary).rays);
   EXPECT_NEAR(static_cast<double>(both.packets.stats.of(RayKind::primary).rays), primary,
@@ -144,8 +133,6 @@ TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
   const double error = errorOf(adaptive);
   const double rays =
       static_cast<double>(adaptive.stats.allRays()) / static_cast<double>(all.stats.allRays());
-  std::printf("RMSE: 3 samples %.5f, 9 everywhere %.5f, adaptive %.5f with %.3f of the rays\n",
-              errorThree, errorAll, error, rays);
 
   EXPECT_LE(error, 1.6 * errorAll);
   EXPECT_LE(error, errorThree / 1.4);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "pi.h"
-#include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -30,21 +29,18 @@ TEST(Analytic, LightFallsOffOverAPlane) {
   lookDown(builder);
   const Scene scene = builder.build();
   const Image image = render(scene, smallOptions()).image;
-  const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
 
   double worst = 0;
-  forEachPixel(image, [&](int x, int y) {
-    const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+  forEachRay(scene, image, [&](const Ray& ray, const Rgb& seen) {
     const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
     const Vec3d l = Vec3d(light.position) - point;
     const double wanted = 10 * 0.5 / kPi * (l.y / length(l)) / dot(l, l);
-    worst = std::max(worst, std::fabs(double{image.at(x, y).x} / wanted - 1));
+    worst = std::max(worst, std::fabs(double{seen.x} / wanted - 1));
   });
 
   // The point where the ray hits the floor carries the rounding of the ray's direction, times
   // distance over height.
   constexpr double kBound = 4 * kFloatFormula;
-  std::printf("light falloff: worst relative error %.3g, bound %.3g\n", worst, kBound);
   EXPECT_LE(worst, kBound);
 }
 
@@ -87,8 +83,7 @@ TEST(Analytic, H43_whiteFurnaceThroughACoatedSlab) {
 
     const double r = double{mirror} * 0.96 + 0.04;
     for (const int inside : {1, 4, 31}) {
-      RenderOptions o = smallOptions();
-      o.size = ImageSize{1, 1};
+      RenderOptions o = smallOptions({1, 1});
       o.depth = inside + 1;
       o.cutoff = 0;
       EXPECT_NEAR(render(scene, o).image.pixels[0].x, 1 - std::pow(r, inside) * (1 - r), 1e-6)

@@ -254,8 +254,7 @@ TEST(AnyBits, LeadNoKernelAstray) {
     for (const std::string& target : targets) {
       for (const bool samples : {false, true}) {
         SCOPED_TRACE(name + " on " + target + (samples ? ", with samples" : ""));
-        RenderOptions o = smallOptions();
-        o.size = ImageSize{40, 30};
+        RenderOptions o = smallOptions({40, 30});
         o.threads = 1;
         o.simd = target;
         o.effects = EffectChoice::all;

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "accel/accel.h"
+#include "render/data_map.h"
 #include "unit/scene_builder.h"
-#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
@@ -22,11 +22,9 @@ SceneDescription stripedSquare() {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
-  std::vector<std::uint32_t> texels;
-  for (int i = 0; i < kStripes; ++i) {
-    texels.push_back(encodeDataTexel(i % 2 == 0 ? 1.0f : 0.0f, 0, 0, 1));
-  }
-  d.textures = {verify::makeTexture(TexelFormat::data, kStripes, 1, std::move(texels))};
+  std::vector<float> stripes;
+  for (int i = 0; i < kStripes; ++i) stripes.push_back(i % 2 == 0 ? 1.0f : 0.0f);
+  d.textures = {dataMap(kStripes, stripes)};
   d.textures[0].wrapU = d.textures[0].wrapV = Wrap::clamp;
   d.materials[0].alphaMap = 0;
   d.materials[0].alphaCutoff = 0.5f;

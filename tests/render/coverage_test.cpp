@@ -7,13 +7,6 @@
 namespace whit::test {
 namespace {
 
-std::int32_t addCoverageMap(SceneBuilder& builder, const std::vector<float>& values) {
-  std::vector<std::uint32_t> texels;
-  for (const float v : values) texels.push_back(encodeDataTexel(v, 0.9f, 0.1f, 1));
-  return builder.add(
-      makeTexture(TexelFormat::data, static_cast<int>(values.size()), 1, std::move(texels)));
-}
-
 // The material is matte, glossy, emitting and mirroring at once.
 Material allAtOnce() {
   Material m = diffuseMaterial(0.6f);
@@ -30,7 +23,7 @@ Material allAtOnce() {
 TEST(Coverage, ClearTexelsAreNoBounce) {
   SceneBuilder builder;
   Material sheet = emittingMaterial(1);
-  sheet.coverageMap = addCoverageMap(builder, {0});
+  sheet.coverageMap = builder.add(dataMap(1, {0}));
   sheet.passClearTexels();
   builder.add(floorAt(0, 9, builder.add(sheet)));
   builder.sky(0.5f);
@@ -42,10 +35,10 @@ TEST(Coverage, ClearTexelsAreNoBounce) {
 // Pairs of tiles, one over the other, cover by maps and numbers, mirror and shine. One is thin.
 Scene tilesInPart() {
   SceneBuilder builder;
-  const std::int32_t few = addCoverageMap(builder, {0, 0.3f, 1, 0.6f});
+  const std::int32_t few = builder.add(dataMap(4, {0, 0.3f, 1, 0.6f}));
   std::vector<float> many;
   for (int i = 0; i < 37; ++i) many.push_back(static_cast<float>(i) / 36);
-  const std::int32_t slope = addCoverageMap(builder, many);
+  const std::int32_t slope = builder.add(dataMap(37, many));
 
   builder.sky(0.3f);
   return rowOfTiles(builder, [&](int i) {
@@ -71,18 +64,7 @@ Scene tilesInPart() {
   });
 }
 
-RenderOptions sampledOptions() {
-  RenderOptions o = smallOptions();
-  o.glossy = 2;
-  return o;
-}
-
-TEST(Coverage, KeepsTheLawsOfMaps) { expectTheLawsOfMaps(tilesInPart(), sampledOptions()); }
-
-TEST(Coverage, HasAStepWhereTheSceneHasSome) {
-  expectStep("lookUpCoverage", tilesInPart(), sampledOptions(),
-             {Effect::coverage, Effect::transmission});
-}
+TEST(Coverage, KeepsTheLawsOfMaps) { expectTheLawsOfMaps(tilesInPart(), withSampledLobes()); }
 
 }  // namespace
 }  // namespace whit::test

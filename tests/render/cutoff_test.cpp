@@ -22,8 +22,7 @@ Scene closedRoom(const Material& wall) {
 
 // The depth ends paths late, and the cutoff is the default one.
 RenderOptions deepOptions() {
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{8, 8};
+  RenderOptions o = smallOptions({8, 8});
   o.depth = kDepth;
   o.cutoff = RenderOptions().cutoff;
   return o;
@@ -94,8 +93,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
   builder.lookFrom({0.5f, 0.7f, 3});
 
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{16, 12};
+  RenderOptions o = smallOptions({16, 12});
   const auto [packets, reference] = renderBoth(builder.build(), o);
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
@@ -118,8 +116,7 @@ TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   }
   builder.lookFrom({0, 4.75, 0}, {1, 0, 0});
 
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{4, 4};
+  RenderOptions o = smallOptions({4, 4});
   o.depth = 16;
   o.cutoff = 1e-2f;
 

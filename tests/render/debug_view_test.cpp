@@ -103,8 +103,7 @@ TEST(DebugView, FullPacketsAreBright) {
 
 // The reference is given: it has other codes than the packets at three of the 15 pixels.
 TEST(DebugView, DifferencesFromTheReferenceHaveAScale) {
-  RenderOptions options = smallOptions();
-  options.size = {5, 3};
+  RenderOptions options = smallOptions({5, 3});
   const Scene scene = repaired(wall());
   Renderer renderer(scene, options);
   Film film = render(renderer);
@@ -141,7 +140,7 @@ TEST(DebugView, ThePictureItselfIsAsEver) {
   const Picture picture = render(load("whitted"), smallOptions());
   for (const DebugView what : {DebugView::rays, DebugView::cost, DebugView::occupancy}) {
     const Viewed viewed = view(described("whitted"), what);
-    EXPECT_EQ(firstDifference(viewed.film.image, picture.image), "");
+    EXPECT_EQ(firstDifference(viewed.film, picture), "");
     EXPECT_GT(viewed.frame.stats.frameMs, 0);
   }
 }

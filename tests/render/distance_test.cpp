@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "oracle/bilinear.h"
@@ -92,8 +91,7 @@ double integral(const Value& value) {
 double meanSeen(Scene& scene, double texelsPerPixel, bool packets) {
   constexpr double kUneven = 1.0137;
   scene.cameras[0].orthographicHeight = static_cast<float>(texelsPerPixel * kUneven * kPixels);
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{kPixels, kPixels};
+  RenderOptions o = smallOptions({kPixels, kPixels});
 
   const Image image = render(scene, o, packets).image;
   double sum = 0;
@@ -112,17 +110,14 @@ void expectTheSameFromAfar(const std::string& what, SceneBuilder& builder, const
   Scene scene = builder.build();
 
   const double wanted = integral(value);
-  std::printf("%s, %.4f wanted:", what.c_str(), wanted);
   for (const double texels : {1, 2, 4, 8, 16, 32}) {
     const double seen = meanSeen(scene, texels, true);
-    std::printf(" %.4f", seen);
     EXPECT_NEAR(seen, wanted, bound * wanted) << what << " at " << texels << " texels a pixel";
     if (texels == 4 || texels == 32) {
       EXPECT_NEAR(meanSeen(scene, texels, false), wanted, bound * wanted)
           << what << ", reference, " << texels;
     }
   }
-  std::printf("\n");
 }
 
 struct Leaves {

@@ -16,8 +16,7 @@ using Edit = std::function<void(std::vector<Material>&, std::vector<Light>&)>;
 
 // Renders, edits, and renders again with the same renderer.
 void expectAsIfRead(const std::string& name, const Edit& edit) {
-  RenderOptions options = smallOptions();
-  options.size = ImageSize{53, 37};
+  RenderOptions options = smallOptions({53, 37});
   SceneDescription description = described(name);
   Scene edited = load(name);
   edit(description.materials, description.lights);

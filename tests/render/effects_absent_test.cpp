@@ -97,6 +97,12 @@ TEST_P(AbsentEffect, OnTopOfTheMatteSceneGivesTheSameBits) {
   EXPECT_EQ(firstDifference(render(scene, o), plain), "");
 }
 
+TEST_P(AbsentEffect, LeftOutIsGoneAsInTheReference) {
+  RenderOptions o = smallOptions();
+  o.disable = {effect_};
+  EXPECT_LE(differenceFromReference(loadWithout({}), o).pixelsGe2CodesPct, 0.1);
+}
+
 // Rays, kernel calls and memory of a frame.
 struct Cost {
   FrameStats stats;
@@ -173,13 +179,6 @@ TEST(AbsentEffects, WithAllOfThemEveryRayStageAndBufferIsThere) {
   EXPECT_GT(cost.texels, 1000u);
   EXPECT_GT(cost.instances, 1u);
   EXPECT_TRUE(cost.skyImage);
-}
-
-// The instances are neither misplaced nor partly visible but gone, as in the reference.
-TEST(AbsentEffects, InstancesAreNotThereAsInTheReference) {
-  RenderOptions o = smallOptions();
-  o.disable = {Effect::instances};
-  EXPECT_LE(differenceFromReference(load("landscape?triangles=20000"), o).pixelsGe2CodesPct, 0.1);
 }
 
 TEST(AbsentEffects, WithoutShadowsEveryLightShines) {

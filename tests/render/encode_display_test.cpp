@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "core/display.h"
-#include "simd/kernels.h"
+#include "render/every_target.h"
 #include "stages/columns.h"
 
 namespace whit::test {
 namespace {
-
-class EncodeDisplay : public testing::Test {
- protected:
-  void TearDown() override { simd::chooseTarget("auto"); }
-};
 
 std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
   ColumnStore<RadianceColumns> radiance(values.size(), FeatureSet());
@@ -28,19 +23,18 @@ std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
 }
 
 void expectScalarCodes(const std::vector<float>& values) {
-  for (const std::string& target : simd::availableTargets()) {
-    ASSERT_TRUE(simd::chooseTarget(target));
+  forEachTarget([&](const std::string&) {
     const std::vector<std::uint32_t> codes = codesOf(values);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto code = static_cast<std::uint32_t>(srgbCode(static_cast<double>(values[i])));
       ASSERT_EQ(codes[i], 0xFF000000u | code << 16 | code << 8 | code)
-          << target << " at " << std::hexfloat << values[i];
+          << std::hexfloat << values[i];
     }
-  }
+  });
 }
 
 // The values are the floats on both sides of every rounding, found by bisection over their bits.
-TEST_F(EncodeDisplay, EveryCodeBeginsAtTheSameFloat) {
+TEST(EncodeDisplay, EveryCodeBeginsAtTheSameFloat) {
   std::vector<float> values;
   for (int code = 1; code < 256; ++code) {
     std::uint32_t below = 0, from = std::bit_cast<std::uint32_t>(1.0f);

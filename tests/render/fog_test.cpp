@@ -16,33 +16,17 @@ class FogOfTheAir : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(FogOfTheAir, EveryStageAgreesWithItsReferenceOnEveryTarget) {
+TEST_P(FogOfTheAir, KeepsThePipelineLaws) { expectThePipelineLaws(scene_, smallOptions()); }
+
+TEST_P(FogOfTheAir, LeftOutShowsTheClearScene) {
   RenderOptions o = smallOptions();
-  o.depth = 3;
-  expectStagesAgreeOnEveryTarget(scene_, o);
-}
-
-TEST_P(FogOfTheAir, PictureAgreesWithTheReference) {
-  expectSampledPictureAgrees(scene_, smallOptions());
-}
-
-TEST_P(FogOfTheAir, BitsDependOnTheSceneAlone) {
-  expectBitsWhateverTheQueues(scene_, smallOptions());
-}
-
-TEST_P(FogOfTheAir, CostsNoStepWhereThereIsNone) {
-  const Scene clear = load(GetParam());
-  RenderOptions o = smallOptions();
-  EXPECT_NE(Renderer(scene_, o).plan().find("addFog"), nullptr);
-  EXPECT_EQ(Renderer(clear, o).plan().find("addFog"), nullptr);
-
-  const Picture expected = render(clear, o);
+  const Picture expected = render(load(GetParam()), o);
   o.disable = {Effect::fog};
   EXPECT_EQ(firstDifference(render(scene_, o), expected), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, FogOfTheAir, testing::Values("glass", "mirrors", "effects"),
-                         [](const auto& info) { return info.param; });
+                         sceneName);
 
 }  // namespace
 }  // namespace whit::test

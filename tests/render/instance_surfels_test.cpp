@@ -25,14 +25,12 @@ Scene placed(const Affine& map, float height, float half) {
 void interpolateOnEveryTarget(
     const Scene& scene, const Vec3f& direction,
     const std::function<void(const SurfelColumns&, const SurfelRow&)>& check) {
-  for (const std::string& target : simd::availableTargets()) {
-    SCOPED_TRACE(target);
+  forEachTarget([&](const std::string& target) {
     KernelSurfels kernel(scene, target);
     kernel.hit(0, 0, direction, 0, 0);
     kernel.interpolate();
     check(kernel.chunk().surfels, kernel.scalar(0));
-  }
-  simd::chooseTarget("auto");
+  });
 }
 
 // The offset is 32 u times the magnitudes that make up the point (|x| + |y| + |z| of the corner,

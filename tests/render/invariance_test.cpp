@@ -7,10 +7,7 @@
 namespace whit::test {
 namespace {
 
-class Invariance : public testing::TestWithParam<std::string> {
- protected:
-  const Scene scene_ = load(GetParam());
-};
+using Invariance = SceneTest;
 
 TEST_P(Invariance, H60_anyDivisionOfTheWorkGivesTheSameBits) {
   std::vector<Division> divisions = usualDivisions();
@@ -47,25 +44,13 @@ TEST_P(Invariance, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   }
 }
 
-TEST_P(Invariance, H76_supersamplingIsTheSameForAnyTileAndQueue) {
-  RenderOptions o = smallOptions();
-  o.spp = 3;
-  const auto split = [](RenderOptions& o) {
-    o.tile = 8;
-    o.queue = 16;
-    o.threads = 1;
-  };
-  expectBitsWhateverTheQueues(scene_, o, {{"split", split}});
-}
-
 TEST_P(Invariance, NoPixelIsNonFinite) {
   EXPECT_EQ(render(scene_, smallOptions()).stats.nonFinitePixels, 0u);
 }
 
 // The picture is large enough that some of the rays of its long chains hit edges.
 TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{200, 120};
+  RenderOptions o = smallOptions({200, 120});
   std::vector<Division> divisions = usualDivisions();
   divisions.push_back({"rays alone", [](RenderOptions& o) { o.packet = 1; }});
 
@@ -75,10 +60,7 @@ TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Invariance, testing::ValuesIn(smallScenes()),
-                         [](const auto& info) {
-                           return info.param.substr(0, info.param.find('?'));
-                         });
+INSTANTIATE_TEST_SUITE_P(Shipped, Invariance, testing::ValuesIn(smallScenes()), sceneName);
 
 }  // namespace
 }  // namespace whit::test

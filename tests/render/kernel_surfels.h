@@ -3,8 +3,8 @@
 
 #include "reference/find_intersections.h"
 #include "reference/small_chunk.h"
+#include "render/every_target.h"
 #include "render/renderer.h"
-#include "simd/kernels.h"
 
 namespace whit::test {
 

@@ -49,19 +49,5 @@ TEST(LightKinds, AgreeWithTheReference) {
   EXPECT_LE(differenceFromReference(scene, smallOptions()).pixelsGe2CodesPct, 0.1);
 }
 
-// --disable leaves out each effect in packets and in the reference.
-TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
-  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0}, 3)});
-  for (const Effect effect : {Effect::spotLights, Effect::directionalLights}) {
-    RenderOptions o = smallOptions();
-    o.disable = {effect};
-    EXPECT_LE(differenceFromReference(scene, o).pixelsGe2CodesPct, 0);
-  }
-}
-
-TEST(LightKinds, HowTheFrameIsSplitChangesNoBit) {
-  expectBitsWhateverTheQueues(floorUnder({spot(15, 25), sun({3, -4, 0}, 3)}), smallOptions());
-}
-
 }  // namespace
 }  // namespace whit::test

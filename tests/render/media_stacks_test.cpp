@@ -58,7 +58,7 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
     const Chunk& c = kernel.chunk();
 
     for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
-      SCOPED_TRACE(simd + " stack " + std::to_string(stack) + " slot " + std::to_string(slot));
+      SCOPED_TRACE(testing::Message() << "stack " << stack << " slot " << slot);
       const SurfelRow scalar = kernel.scalar(slot);
       ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind);
       ASSERT_EQ(c.surfels.flags[slot], scalar.flags);
@@ -75,11 +75,8 @@ TEST(MediaStacks, AreThoseOfTheReferenceOnEveryTarget) {
     const Scene scene = sceneOfMedia(priorities);
 
     ASSERT_EQ(scene.media.size(), 1u + kMedia);
-    for (const std::string& target : simd::availableTargets()) {
-      expectTheStacksOfTheReference(scene, target);
-    }
+    forEachTarget([&](const std::string& target) { expectTheStacksOfTheReference(scene, target); });
   }
-  simd::chooseTarget("auto");
 }
 
 }  // namespace

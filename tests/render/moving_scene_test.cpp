@@ -1,4 +1,5 @@
-// Scenes that move: pictures against closed forms, and that pictures depend on the time alone.
+// Scenes that move: pictures against closed forms. That pictures depend on the time alone is tested
+// by Library.ScenesMoveAndComeBack.
 #include "bake/edit_scene.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +15,6 @@
 
 namespace whit::test {
 namespace {
-
-Scene orreryAt(double seconds) {
-  LoadOptions options;
-  options.instant.seconds = seconds;
-  return repaired(described("orrery", options));
-}
 
 // A scene that moves, and its pictures.
 struct MovingPicture {
@@ -39,19 +34,10 @@ struct MovingPicture {
   Renderer renderer;
 };
 
-TEST(MovingScene, PicturesFollowFromTheTimeAlone) {
-  MovingPicture moving(orreryAt(0));
-  const Image first = moving.at(0);
-  for (const double seconds : {7.25, 2.4, 0.0, 2.4}) {
-    const Image moved = moving.at(seconds);
-    EXPECT_EQ(firstDifference(moved, render(orreryAt(seconds), smallOptions()).image), "")
-        << seconds;
-    EXPECT_EQ(firstDifference(moved, first).empty(), seconds == 0) << seconds;
-  }
-}
-
 TEST(MovingScene, PicturesDoNotDependOnThreadsOrPackets) {
-  expectBitsWhateverTheQueues(orreryAt(3.1), smallOptions());
+  LoadOptions options;
+  options.instant.seconds = 3.1;
+  expectBitsWhateverTheQueues(repaired(described("orrery", options)), smallOptions());
 }
 
 // Returns a builder whose only camera sees eight by eight units about the origin in parallel rays,
@@ -197,16 +183,10 @@ void expectAlikeMirrored(Scene scene) {
   MovingPicture moving(std::move(scene));
   for (const bool packets : {false, true}) {
     const Image before = moving.at(0, packets), after = moving.at(2, packets);
-    int lit = 0, other = 0;
-    for (std::size_t i = 0; i < before.pixels.size(); ++i) {
-      const float a = before.pixels[i].x, b = after.pixels[i].x;
-      lit += a > 0.1f;
-      other += std::abs(a - b) > 1e-5f;
-    }
-
-    EXPECT_GT(lit, 100) << packets;
+    const std::size_t lit = pixelsApart(before, Image(before.width, before.height), 0.1f);
+    EXPECT_GT(lit, 100u) << packets;
     // Edges move in the last bits, so pixels at edges may differ.
-    EXPECT_LE(other, lit / 100) << packets;
+    EXPECT_LE(pixelsApart(before, after, 1e-5f), lit / 100) << packets;
     EXPECT_EQ(firstDifference(moving.at(0, packets), before), "");
   }
 }

@@ -11,21 +11,16 @@ Scene pixelArt(bool everywhere) {
   SceneBuilder builder;
   std::array<std::int32_t, 2> color{}, data{}, mask{};
   for (const std::size_t i : {0, 1}) {
-    const auto add = [&](TexelFormat format, const std::vector<std::uint32_t>& texels) {
-      Texture t = makeTexture(format, 3, 2, texels);
+    const auto add = [&](Texture t) {
       t.nearest = everywhere || i == 0;
       t.wrapU = Wrap::mirror;
       return builder.add(t);
     };
-    const auto addData = [&](std::initializer_list<float> values) {
-      std::vector<std::uint32_t> texels;
-      for (const float x : values) texels.push_back(encodeDataTexel(x, x, x, x));
-      return add(TexelFormat::data, texels);
-    };
 
-    color[i] = add(TexelFormat::color, {1023u, 0u, 700u << 10, 1023u << 20, 341u, 900u << 10});
-    data[i] = addData({1, 0.3f, 0.6f, 0.2f, 0.9f, 0.5f});
-    mask[i] = addData({1, 0, 1, 0, 1, 0});
+    color[i] = add(makeTexture(TexelFormat::color, 3, 2,
+                               {1023u, 0u, 700u << 10, 1023u << 20, 341u, 900u << 10}));
+    data[i] = add(dataMap(3, {1, 0.3f, 0.6f, 0.2f, 0.9f, 0.5f}, true));
+    mask[i] = add(dataMap(3, {1, 0, 1, 0, 1, 0}));
   }
 
   return rowOfTiles(builder, [&](int i) {
@@ -68,8 +63,7 @@ TEST(NearestTextures, CutTexelByTexel) {
     Material m = blackMaterial();
     m.emission = Rgb(1.0f);
 
-    Texture t = makeTexture(TexelFormat::data, 2, 1,
-                            {encodeDataTexel(1, 0, 0, 0), encodeDataTexel(right, 0, 0, 0)});
+    Texture t = dataMap(2, {1, right});
     t.nearest = true;
     m.alphaMap = builder.add(t);
     // Bilinear alpha is below the cutoff only beyond u = 0.55, or nowhere.

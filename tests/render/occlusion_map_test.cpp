@@ -9,9 +9,7 @@ namespace {
 // The tiles are diffuse or rough, with a map by either set of coordinates and without a map.
 Scene occludedTiles() {
   SceneBuilder builder;
-  const auto red = [](float r) { return encodeDataTexel(r, 0.3f, 0.7f, 1); };
-  const std::int32_t map =
-      builder.add(makeTexture(TexelFormat::data, 2, 2, {red(1), red(0), red(0.5f), red(0.8f)}));
+  const std::int32_t map = builder.add(dataMap(2, {1, 0, 0.5f, 0.8f}));
 
   builder.sky(0.5f);
   return rowOfTiles(builder, [&](int i) {

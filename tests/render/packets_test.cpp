@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "render/every_target.h"
 #include "set_columns.h"
-#include "simd/kernels.h"
 #include "stages/columns.h"
 
 namespace whit::test {
@@ -20,19 +20,16 @@ constexpr std::size_t kColumns = 20, kPacked = 37;  // not a multiple of any wid
 
 class Packets : public testing::Test {
  protected:
-  void TearDown() override { simd::chooseTarget("auto"); }
-
   // Calls check(width) for each width and target.
   template <typename Check>
   void forEachWidthAndTarget(const Check& check) {
-    for (const std::string& target : simd::availableTargets()) {
-      ASSERT_TRUE(simd::chooseTarget(target));
+    forEachTarget([&](const std::string&) {
       for (const std::size_t width : {4u, 8u, 16u}) {
-        SCOPED_TRACE(target + ", packets of " + std::to_string(width));
+        SCOPED_TRACE(width);
         words.assign((kPacked + width) / width * width * kColumns, -7.0f);
         check(width);
       }
-    }
+    });
   }
 
   PacketWords packets(std::size_t width) { return {words.data(), kColumns * width, width}; }

@@ -71,8 +71,7 @@ Scene whittedFrom(const Camera& camera) {
 
 // The rays of the eye alone depend on the projection.
 RenderOptions projectedOptions() {
-  RenderOptions o = smallOptions();
-  o.size = kSmallSize;
+  RenderOptions o = smallOptions(kSmallSize);
   o.spp = 2;
   o.depth = 1;
   return o;
@@ -106,12 +105,11 @@ TEST(Projected, EveryWayOfRenderingGivesTheSameBits) {
     expectBitsWhateverTheQueues(scene, o, divisions);
     expectBitsOfTheWhole(scene, o, {50, 20, 60, 40});
 
-    const Image expected = render(scene, o).image;
-    for (const std::string& target : simd::availableTargets()) {
+    const Picture expected = render(scene, o);
+    forEachTarget([&](const std::string& target) {
       o.simd = target;
-      EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << target;
-    }
-    simd::chooseTarget("auto");
+      EXPECT_EQ(firstDifference(render(scene, o), expected), "");
+    });
   }
 }
 
@@ -131,8 +129,7 @@ TEST(Projected, SizesThatTheViewsDoNotDivideShowTheSameViews) {
   for (const auto& [name, even, odd] : kSizes) {
     SCOPED_TRACE(std::string(name) + " " + std::to_string(odd.width));
     const Scene scene = whittedFrom(cameras.at(name));
-    RenderOptions o = smallOptions();
-    o.size = even;
+    RenderOptions o = smallOptions(even);
     const Image views = render(scene, o).image;
 
     o.size = odd;
@@ -164,8 +161,7 @@ TEST(Projected, DepthsAreTheClosedForm) {
     SceneBuilder builder;
     builder.add(exactSphere(builder.add(emittingMaterial(1)), sphere));
     builder.description.cameras = {camera};
-    RenderOptions o = smallOptions();
-    o.size = kSmallSize;
+    RenderOptions o = smallOptions(kSmallSize);
     o.channels = parseChannels("depth,alpha");
     auto [packets, reference] = renderBoth(builder.build(), o);
     const CameraFrame frame = makeCameraFrame(camera, kSmallSize.width, kSmallSize.height);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/scene.h"
-#include "verify/scene_builder.h"
+#include "render/data_map.h"
 
 namespace whit::test {
 
@@ -88,8 +88,7 @@ inline Scene randomScene(unsigned kind, unsigned seed) {
 
   // Kind 3: one half of the triangles has masks with holes.
   if (kind == 3) {
-    soup.builder.description.materials[0].alphaMap = soup.builder.add(verify::makeTexture(
-        TexelFormat::data, 2, 1, {encodeDataTexel(1, 1, 1, 1), encodeDataTexel(0, 0, 0, 0)}));
+    soup.builder.description.materials[0].alphaMap = soup.builder.add(dataMap(2, {1, 0}));
 
     for (int i = 0; i < 30; ++i) triangle(above(), 1);
     for (std::size_t i = 0; i < soup.mesh.positions.size(); ++i) {

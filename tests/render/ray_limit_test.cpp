@@ -11,8 +11,7 @@ namespace {
 
 // Glass, mirrors and samples of lobes give many pixels trees of more rays than the limit.
 RenderOptions branching() {
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{48, 30};
+  RenderOptions o = smallOptions({48, 30});
   o.indirect = 2;
   o.glossy = 2;
   o.maxRays = 24;
@@ -38,14 +37,12 @@ TEST(RayLimit, ChangesThePixelsThatItCountsAndNoOthers) {
 
   EXPECT_EQ(whole.stats.limitedPixels, 0u);
   EXPECT_EQ(large.stats.limitedPixels, 0u);
-  EXPECT_EQ(firstDifference(large.image, whole.image), "");
+  EXPECT_EQ(firstDifference(large, whole), "");
   EXPECT_GT(limited.stats.limitedPixels, 100u);
   EXPECT_LT(limited.stats.limitedPixels, limited.image.pixels.size());
 
-  std::uint64_t different = 0;
-  for (std::size_t i = 0; i < whole.image.pixels.size(); ++i) {
-    different += !(limited.image.pixels[i] == whole.image.pixels[i]);
-  }
+  const std::size_t different =
+      pixelsApart(limited.image, whole.image, std::numeric_limits<float>::denorm_min());
 
   EXPECT_LE(different, limited.stats.limitedPixels);
   EXPECT_GT(different, limited.stats.limitedPixels / 2);

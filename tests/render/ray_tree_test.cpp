@@ -119,11 +119,10 @@ TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                          testing::Values("matte", "whitted", "mirrors", "glass", "effects",
                                          "glossy"),
-                         [](const auto& info) { return info.param; });
+                         sceneName);
 
 // The samples of one scene differ at edges only, and the other scene samples lobes.
-INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"), sceneName);
 
 // A surface stands before a wall, which emits light by default.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {

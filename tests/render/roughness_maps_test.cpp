@@ -9,13 +9,11 @@ namespace {
 // The tiles have lobes with maps of several sizes and without a map, and one has a mirror besides.
 Scene roughTiles() {
   SceneBuilder builder;
-  const auto green = [](float g) { return encodeDataTexel(0.3f, g, 0.7f, 1); };
-  const std::int32_t checks = builder.add(
-      makeTexture(TexelFormat::data, 2, 2, {green(1), green(0.3f), green(0.5f), green(0.8f)}));
+  const std::int32_t checks = builder.add(dataMap(2, {1, 0.3f, 0.5f, 0.8f}, true));
 
-  std::vector<std::uint32_t> ramp;
-  for (int i = 0; i < 33 * 7; ++i) ramp.push_back(green(static_cast<float>(i % 33) / 32));
-  Texture wide = makeTexture(TexelFormat::data, 33, 7, ramp);
+  std::vector<float> ramp;
+  for (int i = 0; i < 33 * 7; ++i) ramp.push_back(static_cast<float>(i % 33) / 32);
+  Texture wide = dataMap(33, ramp, true);
   wide.wrapU = Wrap::mirror;
   const std::int32_t slope = builder.add(wide);
 
@@ -30,18 +28,12 @@ Scene roughTiles() {
   });
 }
 
-RenderOptions withSamples() {
-  RenderOptions o = smallOptions();
-  o.glossy = 2;
-  return o;
-}
-
-TEST(RoughnessMaps, KeepTheLawsOfMaps) { expectTheLawsOfMaps(roughTiles(), withSamples()); }
+TEST(RoughnessMaps, KeepTheLawsOfMaps) { expectTheLawsOfMaps(roughTiles(), withSampledLobes()); }
 
 TEST(RoughnessMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = roughTiles();
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
-  expectStep("lookUpRoughness", roughTiles(), withSamples(), {Effect::textures}, &scene);
+  expectStep("lookUpRoughness", roughTiles(), withSampledLobes(), {Effect::textures}, &scene);
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 
 #include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
+#include "render/data_map.h"
 #include "render/pipeline_laws.h"
 #include "render/plan.h"
-#include "simd/kernels.h"
 
 namespace whit::test {
 
@@ -45,6 +45,12 @@ inline Mesh tile(std::uint32_t material) {
   return mesh;
 }
 
+inline RenderOptions withSampledLobes(int samples = 2) {
+  RenderOptions o = smallOptions();
+  o.glossy = samples;
+  return o;
+}
+
 // A map of four colors.
 inline std::int32_t addColors(SceneBuilder& builder) {
   return builder.add(makeTexture(TexelFormat::color, 2, 2,
@@ -54,26 +60,18 @@ inline std::int32_t addColors(SceneBuilder& builder) {
 // Another surface may be hit at edges, in 0.1 % of the picture.
 inline constexpr std::size_t kPixelsAtEdges = 7;
 
-inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptions& o,
-                                           const std::string& what) {
+inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptions& o) {
   const auto [packets, reference] = renderBoth(scene, o);
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
-    const Rgb apart = abs(packets.image.pixels[i] - reference.image.pixels[i]);
-    differences += !(maxComponent(apart) < 1e-3f);
-  }
-
-  EXPECT_LE(differences, kPixelsAtEdges) << what;
+  EXPECT_LE(pixelsApart(packets.image, reference.image, 1e-3f), kPixelsAtEdges);
 }
 
-// Compares the picture and each of its stages. Leaves the default target chosen.
+// Compares the picture and each of its stages.
 inline void expectTheReferenceOnEveryTarget(const Scene& scene, RenderOptions options) {
   expectStagesAgreeOnEveryTarget(scene, options);
-  for (const std::string& target : simd::availableTargets()) {
+  forEachTarget([&](const std::string& target) {
     options.simd = target;
-    expectThePictureOfTheReference(scene, options, target);
-  }
-  simd::chooseTarget("auto");
+    expectThePictureOfTheReference(scene, options);
+  });
 }
 
 // Expects the reference with every filter of textures, and the same bits whatever the queues.
@@ -105,7 +103,8 @@ inline void expectTheReferenceWithout(const Scene& scene, std::initializer_list<
   for (const Effect effect : effects) {
     RenderOptions o = smallOptions();
     o.disable = {effect};
-    expectThePictureOfTheReference(scene, o, std::string(nameOf(effect)));
+    SCOPED_TRACE(nameOf(effect));
+    expectThePictureOfTheReference(scene, o);
   }
 }
 

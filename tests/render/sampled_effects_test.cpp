@@ -108,14 +108,14 @@ TEST_P(SampledEffect, ACropShowsTheSameNoise) {
 TEST_P(SampledEffect, CostsNothingWhereItIsNotSampled) {
   const Picture plain = render(scene_, without()), sampled = render(scene_, options());
   EXPECT_EQ(Renderer(scene_, without()).plan().find(effect_.step), nullptr);
-  EXPECT_NE(firstDifference(sampled.image, plain.image), "");
+  EXPECT_NE(firstDifference(sampled, plain), "");
   EXPECT_GT(sampled.stats.of(effect_.rays).rays, plain.stats.of(effect_.rays).rays);
 
   RenderOptions o = options();
   o.disable = o.disable.with(effect_.effect);
   const Picture disabled = render(scene_, o);
   EXPECT_EQ(Renderer(scene_, o).plan().find(effect_.step), nullptr);
-  EXPECT_EQ(firstDifference(disabled.image, plain.image), "");
+  EXPECT_EQ(firstDifference(disabled, plain), "");
   EXPECT_EQ(disabled.stats.allRays(), plain.stats.allRays());
 }
 

@@ -46,9 +46,9 @@ inline SceneDescription scaled(SceneDescription d, int k) {
 inline void expectBitsAtAnyScale(const SceneDescription& description,
                                  std::initializer_list<int> scales,
                                  const RenderOptions& o = smallOptions()) {
-  const Image expected = render(repaired(description), o).image;
+  const Picture expected = render(repaired(description), o);
   for (const int k : scales) {
-    EXPECT_EQ(firstDifference(render(repaired(scaled(description, k)), o).image, expected), "")
+    EXPECT_EQ(firstDifference(render(repaired(scaled(description, k)), o), expected), "")
         << "2^" << k;
   }
 }

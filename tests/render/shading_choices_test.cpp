@@ -5,13 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "inspect/metrics.h"
-#include "inspect/reference_frame.h"
-#include "inspect/stage_comparison.h"
 #include "pi.h"
 #include "reference/small_scenes.h"
-#include "render/shipped_scene.h"
-#include "simd/kernels.h"
+#include "render/pipeline_laws.h"
 
 namespace whit::test {
 namespace {
@@ -35,57 +31,43 @@ const std::vector<Choice>& choices() {
   return all;
 }
 
-class ShadingChoice : public testing::TestWithParam<std::string> {
- protected:
-  void TearDown() override { simd::chooseTarget("auto"); }
-};
+using ShadingChoice = SceneTest;
 
 TEST_P(ShadingChoice, EveryStageAgreesWithItsReferenceOnEveryTarget) {
-  const Scene scene = load(GetParam());
-  for (const std::string& target : simd::availableTargets()) {
-    for (const Choice& choice : choices()) {
-      RenderOptions o = smallOptions();
-      o.size = ImageSize{61, 37};  // small, since every choice is rendered on every target
-      o.simd = target;
-      choice.make(o);
+  for (const Choice& choice : choices()) {
+    SCOPED_TRACE(choice.name);
+    RenderOptions o = smallOptions({61, 37});  // small, since every choice is rendered
+    choice.make(o);
 
-      Renderer renderer(scene, o);
-      const Film film = makeFilm(scene, o);
-      for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
-        // On the border between two texels either may be the nearest.
-        const bool mapped =
-            row.column == "diffuse" || row.column == "specular" || row.column == "shadingNormal";
-        if (mapped && choice.name == "nearestTexel") continue;
+    expectStagesAgreeOnEveryTarget(scene_, o, [&](const StageDifference& row) {
+      // On the border between two texels either may be the nearest.
+      const bool mapped =
+          row.column == "diffuse" || row.column == "specular" || row.column == "shadingNormal";
+      if (mapped && choice.name == "nearestTexel") return true;
 
-        // Offsets and cutoffs do not affect the weights; but the rays that they move may come
-        // nearer to the critical angle, where Fresnel's root amplifies rounding without bound.
-        if (row.column == "weight" && choice.name != "schlick") continue;
-
-        EXPECT_LE(row.worstUlp, row.limitUlp)
-            << choice.name << " on " << target << ": "
-            << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column << " at "
-            << row.pixelX << "," << row.pixelY << " depth " << row.depth;
-      }
-    }
+      // Offsets and cutoffs do not affect the weights; but the rays that they move may come
+      // nearer to the critical angle, where Fresnel's root amplifies rounding without bound.
+      return row.column == "weight" && choice.name != "schlick";
+    });
   }
 }
 
 // Pictures agree as those of the defaults do, and the rays are the same but for those whose
 // decision lies within rounding.
 TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
-  const Scene scene = load(GetParam());
   for (const Choice& choice : choices()) {
     RenderOptions o = smallOptions();
     choice.make(o);
-    const auto [packets, reference] = renderBoth(scene, o);
-    const ImageDifference d = compareImages(packets.image, reference.image);
+    const BothModes both = renderBoth(scene_, o);
     // An offset of 1e-3 moves the start of some rays to the other side of thin parts of a scene;
     // which ones depends on the last bit of the direction.
-    EXPECT_LE(d.pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1) << choice.name;
+    EXPECT_LE(differenceOf(both).pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1)
+        << choice.name;
 
     for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
-      const auto rays = static_cast<double>(reference.stats.meter.tally[kind].rays);
-      EXPECT_NEAR(static_cast<double>(packets.stats.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
+      const auto rays = static_cast<double>(both.reference.stats.meter.tally[kind].rays);
+      EXPECT_NEAR(static_cast<double>(both.packets.stats.meter.tally[kind].rays), rays,
+                  1e-3 * rays + 1)
           << choice.name;
     }
   }

@@ -1,6 +1,8 @@
 // Shipped scenes in small pictures, rendered in different ways.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -12,6 +14,7 @@
 #include "bake/scene.h"
 #include "inspect/reference_frame.h"
 #include "io/load_scene.h"
+#include "reference/generate_rays.h"
 #include "render/renderer.h"
 #include "sanitized.h"
 #include "verify/scene_builder.h"
@@ -39,9 +42,9 @@ inline constexpr ImageSize kSmallSize{107, 67};
 // The default small picture is wide enough for several tiles and not a multiple of any of them,
 // also where a sanitizer watches the code, which a quarter of the pixels runs as well. Paths caught
 // in glass multiply rounding errors with every bounce; at this depth few have diverged.
-inline RenderOptions smallOptions() {
+inline RenderOptions smallOptions(ImageSize size = kSanitized ? ImageSize{53, 33} : kSmallSize) {
   RenderOptions o;
-  o.size = kSanitized ? ImageSize{53, 33} : kSmallSize;
+  o.size = size;
   o.threads = 2;
   o.depth = 8;
   return o;
@@ -93,6 +96,25 @@ void forEachPixel(const Image& image, const Visit& visit) {
   }
 }
 
+// Calls visit(ray, pixel) for each pixel that the scene's first camera shows, with the ray through
+// its center.
+template <typename Visit>
+void forEachRay(const Scene& scene, const Image& image, const Visit& visit) {
+  const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
+  forEachPixel(image, [&](int x, int y) {
+    visit(reference::generateRay(frame, x + 0.5, y + 0.5), image.at(x, y));
+  });
+}
+
+// Counts the pixels that differ by `bound` or more in a channel.
+inline std::size_t pixelsApart(const Image& a, const Image& b, float bound) {
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    apart += !(maxComponent(abs(a.pixels[i] - b.pixels[i])) < bound);
+  }
+  return apart;
+}
+
 // Returns a description of the first pixel whose bits differ, or an empty string.
 inline std::string firstDifference(const Image& a, const Image& b) {
   if (a.pixels.size() != b.pixels.size()) return "different sizes";
@@ -122,6 +144,17 @@ inline std::string firstDifference(const Film& a, const Film& b) {
     }
   });
   return difference;
+}
+
+// Tests of a shipped scene, which is their parameter.
+class SceneTest : public testing::TestWithParam<std::string> {
+ protected:
+  const Scene scene_ = load(GetParam());
+};
+
+// The name of a test of a shipped scene, without the scene's parameters.
+inline std::string sceneName(const testing::TestParamInfo<std::string>& info) {
+  return info.param.substr(0, info.param.find('?'));
 }
 
 // Scenes with the common effects. Only the scene `effects` has all of them.

@@ -93,7 +93,7 @@ TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
   // Backs are visible through holes, so a closed box with holes stays single-sided.
   SceneBuilder pierced;
   Material net = singleSided(matt);
-  net.alphaMap = pierced.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(0, 0, 0, 0)}));
+  net.alphaMap = pierced.add(dataMap(1, {0}));
   pierced.add(box({0, 0, 0}, {1, 2, 3}, pierced.add(net)));
   EXPECT_FALSE(pierced.build().materials[0].doubleSided);
 }
@@ -118,8 +118,7 @@ Scene turnedTiles() {
   Material ground = diffuseMaterial(0.3f);
   ground.mirror = ground.mirrorGrazing = Rgb(0.5f);
   builder.add(floorAt(-1, 8, builder.add(ground)));
-  const std::int32_t holes = builder.add(makeTexture(
-      TexelFormat::data, 2, 1, {encodeDataTexel(0, 0, 0, 0), encodeDataTexel(1, 1, 1, 1)}));
+  const std::int32_t holes = builder.add(dataMap(2, {0, 1}));
 
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.2f + 0.1f * static_cast<float>(i));

@@ -8,7 +8,6 @@
 #include "inspect/path_divergence.h"
 #include "io/files.h"
 #include "render/pipeline_laws.h"
-#include "simd/kernels.h"
 
 namespace whit::test {
 namespace {
@@ -52,13 +51,10 @@ void expectPicturesAgree(const std::string& name) {
   EXPECT_LE(compareImages(packets, reference).maxCode, inGlass ? 2 : 1);
 }
 
-class StagesOfScenes : public testing::TestWithParam<std::string> {
- protected:
-  void TearDown() override { simd::chooseTarget("auto"); }
-};
+using StagesOfScenes = SceneTest;
 
 TEST_P(StagesOfScenes, EveryStageAgreesWithItsReferenceOnEveryTarget) {
-  expectStagesAgreeOnEveryTarget(load(GetParam()), smallOptions());
+  expectStagesAgreeOnEveryTarget(scene_, smallOptions());
 }
 
 TEST_P(StagesOfScenes, PicturesAgreeWithTheReference) { expectPicturesAgree(GetParam()); }
@@ -77,20 +73,16 @@ TEST(LargeScenes, SponzaAgreesWithTheReference) {
 }
 
 TEST_P(StagesOfScenes, TargetsAgreeWithEachOther) {
-  const Scene scene = load(GetParam());
-  const Image expected = render(scene, smallOptions()).image;
-  for (const std::string& target : simd::availableTargets()) {
+  const Image expected = render(scene_, smallOptions()).image;
+  forEachTarget([&](const std::string& target) {
     RenderOptions o = smallOptions();
     o.simd = target;
-    const ImageDifference d = compareImages(render(scene, o).image, expected);
-    EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct) << target;
-  }
+    const ImageDifference d = compareImages(render(scene_, o).image, expected);
+    EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct);
+  });
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, StagesOfScenes, testing::ValuesIn(smallScenes()),
-                         [](const auto& info) {
-                           return info.param.substr(0, info.param.find('?'));
-                         });
+INSTANTIATE_TEST_SUITE_P(Shipped, StagesOfScenes, testing::ValuesIn(smallScenes()), sceneName);
 
 }  // namespace
 }  // namespace whit::test

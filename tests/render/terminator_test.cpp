@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pi.h"
-#include "reference/generate_rays.h"
 #include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "render/facetted_sphere.h"
@@ -38,16 +37,12 @@ RenderOptions square(bool terminator) {
 // Calls visit(normal, pixel) for the pixels that show the true sphere.
 template <typename Visit>
 void forEachPixelOfTheSphere(const Scene& scene, const Image& image, const Visit& visit) {
-  const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
-      const double b = dot(ray.origin, ray.direction);
-      const double discriminant = b * b - dot(ray.origin, ray.origin) + 1;
-      if (discriminant < 0) continue;
-      visit(ray.origin + ray.direction * (-b - std::sqrt(discriminant)), image.at(x, y));
-    }
-  }
+  forEachRay(scene, image, [&](const Ray& ray, const Rgb& seen) {
+    const double b = dot(ray.origin, ray.direction);
+    const double discriminant = b * b - dot(ray.origin, ray.origin) + 1;
+    if (discriminant < 0) return;
+    visit(ray.origin + ray.direction * (-b - std::sqrt(discriminant)), seen);
+  });
 }
 
 // Returns the RMSE over the band next to the terminator.
@@ -101,8 +96,7 @@ TEST(Terminator, H35_flatFacesAreLeftAlone) {
 
   const Scene scene = builder.build();
   ASSERT_TRUE(scene.effects.has(Effect::smoothNormals));
-  EXPECT_EQ(firstDifference(render(scene, square(true)).image, render(scene, square(false)).image),
-            "");
+  EXPECT_EQ(firstDifference(render(scene, square(true)), render(scene, square(false))), "");
 }
 
 TEST(Terminator, H61_scalingByPowersOfTwoChangesNoBit) {

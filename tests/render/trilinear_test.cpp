@@ -102,8 +102,8 @@ TEST(Trilinear, CostsColumnsAndTexelsOnlyWhereItIsAskedFor) {
 
 TEST(Trilinear, CanBeAskedForBetweenFrames) {
   const Scene scene = repaired(textured());
-  const Image sharp = render(scene, kBilinear).image;
-  const Image soft = render(scene, kTrilinear).image;
+  const Picture sharp = render(scene, kBilinear);
+  const Picture soft = render(scene, kTrilinear);
   EXPECT_NE(firstDifference(sharp, soft), "");
 
   Renderer renderer(scene, kBilinear);
@@ -111,7 +111,7 @@ TEST(Trilinear, CanBeAskedForBetweenFrames) {
     const RenderOptions& o = mips ? kTrilinear : kBilinear;
     ASSERT_TRUE(renderer.canSetOptions(o));
     renderer.setOptions(o);
-    EXPECT_EQ(firstDifference(render(renderer).image, mips ? soft : sharp), "") << mips;
+    EXPECT_EQ(firstDifference(render(renderer), mips ? soft : sharp), "") << mips;
   }
 }
 

@@ -46,8 +46,7 @@ Scene balls(const std::vector<Material>& materials) {
 enum class Diffuse { byAmbientLight, byRays };
 
 RenderOptions furnace(Diffuse diffuse = Diffuse::byRays) {
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{kBallsAcross * kPixelsASide, kBallsDown * kPixelsASide};
+  RenderOptions o = smallOptions({kBallsAcross * kPixelsASide, kBallsDown * kPixelsASide});
   o.depth = 4;
   o.cutoff = 0;
   o.glossy = 3;

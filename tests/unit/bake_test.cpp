@@ -62,7 +62,7 @@ TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
 
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(scene.uvsOf(2, true)[i], 0) << i;
   EXPECT_EQ(warned(warnings, "non-finite texture coordinate set to 0"), 1u);
-  EXPECT_TRUE(finalized(sceneOf(square())).secondUvs.empty());
+  EXPECT_TRUE(finalized(square()).secondUvs.empty());
 }
 
 TEST(Bake, RecordsAgreeWithTheGeometry) {
@@ -95,7 +95,7 @@ TEST(Bake, RecordsAgreeWithTheGeometry) {
 TEST(Bake, IdentityLeavesPositionsBitIdentical) {
   Mesh mesh = square();
   mesh.positions = {{-0.0f, 1e-41f, 1.0f / 3}, {1e18f, -0.0f, 0.1f}, {0, 1, -1e-30f}, {5, 6, 7}};
-  const std::vector<Vec3f> after = finalized(sceneOf(mesh)).geometries[0].position;
+  const std::vector<Vec3f> after = finalized(mesh).geometries[0].position;
   ASSERT_EQ(after.size(), 4u);
   EXPECT_EQ(std::memcmp(after.data(), mesh.positions.data(), 4 * sizeof(Vec3f)), 0);
 }

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 TEST(Finalize, EmptySceneHasAWorldAndACamera) {
-  const Scene scene = finalized({});
+  const Scene scene = finalized(SceneDescription());
   ASSERT_EQ(scene.geometries.size(), 1u);
   EXPECT_TRUE(scene.geometries[0].index.empty());
   EXPECT_EQ(scene.cameras.size(), 1u);

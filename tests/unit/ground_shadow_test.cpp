@@ -10,8 +10,7 @@
 namespace whit {
 namespace {
 
-using test::sceneOf;
-using test::square;
+using namespace test;
 
 // A sphere of radius r that touches a plane holds off r^3 / (r^2 + d^2)^1.5 of its light at the
 // distance d from the point that it touches: r^2 / D^2 times the cosine r / D, with
@@ -23,7 +22,7 @@ TEST(GroundShadow, OfASphereHasItsClosedForm) {
   mesh.materials = {0};
   mesh.spheres = {Affine::scaling(Vec3d(kRadius))};
   procedural::tessellateSpheres(mesh, 64);
-  SceneDescription scene = test::placedAs(mesh, Affine::translation(center));
+  SceneDescription scene = placedAs(mesh, Affine::translation(center));
   addGroundShadow(scene);
 
   // The sheet lies just below the sphere, and casts no shadow.

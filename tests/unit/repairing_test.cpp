@@ -36,13 +36,13 @@ TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   add({1e-30f, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e-30f});  // squares vanish in float: stays
 
   Warnings warnings;
-  const Scene scene = finalized(sceneOf(mesh), &warnings);
+  const Scene scene = finalized(mesh, &warnings);
   EXPECT_EQ(scene.triangles.size(), 2u + 3);
   EXPECT_EQ(warned(warnings, kDegenerate), 4u);
   EXPECT_EQ(warnings.entries().at(kDegenerate).first, "mesh 'square', triangle 2");
   Warnings strict(true);
   expectError(ExitStatus::badScene, {"mesh 'square', triangle 2", kDegenerate},
-              [&] { finalized(sceneOf(mesh), &strict); });
+              [&] { finalized(mesh, &strict); });
   EXPECT_EQ(scene.upper, (Vec3f{1, 1, 9}));
 }
 
@@ -52,11 +52,11 @@ TEST(Repairing, MeshesOfWhichNothingIsLeftAreCounted) {
   Warnings some, all;
 
   mesh.triangles = {{0, 0, 1}, {0, 1, 2}};
-  finalized(sceneOf(mesh), &some);
+  finalized(mesh, &some);
   EXPECT_EQ(warned(some, kNothing), 0u);
 
   mesh.triangles = {{0, 0, 1}, {0, 1, 9}};
-  finalized(sceneOf(mesh), &all);
+  finalized(mesh, &all);
   EXPECT_EQ(warned(all, kNothing), 1u);
 }
 
@@ -90,7 +90,7 @@ TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
     mesh.positions[3].y = bad;  // of the second triangle only
 
     Warnings warnings;
-    const Scene scene = finalized(sceneOf(mesh), &warnings);
+    const Scene scene = finalized(mesh, &warnings);
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(warned(warnings, kBadCorner), 1u);
     EXPECT_EQ(scene.lower, (Vec3f{0, 0, 0}));
@@ -99,7 +99,7 @@ TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
 
   Mesh large = square();
   large.positions[2].y = 1e18f;
-  EXPECT_EQ(finalized(sceneOf(large)).triangles.size(), 2u);
+  EXPECT_EQ(finalized(large).triangles.size(), 2u);
 }
 
 TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
@@ -119,7 +119,7 @@ TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
   mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
 
   Warnings warnings;
-  const Scene scene = finalized(sceneOf(mesh), &warnings);
+  const Scene scene = finalized(mesh, &warnings);
   EXPECT_EQ(scene.triangles[0].uv[0], 0.25f);
   EXPECT_EQ(scene.triangles[0].uv[1], 0);
   EXPECT_EQ(scene.triangles[1].uv[4], 0);
@@ -159,7 +159,7 @@ TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();
   mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
   Warnings warnings;
-  const Scene scene = finalized(sceneOf(mesh), &warnings);
+  const Scene scene = finalized(mesh, &warnings);
 
   ASSERT_EQ(scene.normals.size(), 2u);
   EXPECT_EQ(normalOf(scene.normals[0], 0), (Vec3f{0, 0, 1}));
@@ -172,7 +172,7 @@ TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
 TEST(Repairing, FlatNormalsAreNotKept) {
   Mesh flat = square();
   flat.normals.assign(4, {0, 0, 7});
-  EXPECT_TRUE(finalized(sceneOf(flat)).normals.empty());
+  EXPECT_TRUE(finalized(flat).normals.empty());
 }
 
 TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {

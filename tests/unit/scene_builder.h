@@ -55,6 +55,10 @@ inline Scene finalized(SceneDescription d, Warnings* warnings = nullptr) {
   return Scene::finalize(std::move(d), warnings ? *warnings : own);
 }
 
+inline Scene finalized(Mesh mesh, Warnings* warnings = nullptr) {
+  return finalized(sceneOf(std::move(mesh)), warnings);
+}
+
 inline Texture whiteTexture(TexelFormat format) {
   Texture t;
   t.name = "white";

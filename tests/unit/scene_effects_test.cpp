@@ -8,10 +8,7 @@
 namespace whit {
 namespace {
 
-using test::finalized;
-using test::sceneOf;
-using test::square;
-using test::whiteTexture;
+using namespace test;
 
 const EffectReason& reason(const Scene& scene, Effect e) {
   return scene.reasons[static_cast<std::size_t>(e)];

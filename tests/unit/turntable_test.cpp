@@ -9,8 +9,7 @@
 namespace whit {
 namespace {
 
-using test::sceneOf;
-using test::square;
+using namespace test;
 
 const Camera kCamera{.eye = {5, 3, 2}, .at = {1, 1, 2}};
 
@@ -51,7 +50,7 @@ TEST(Turntable, AllOfTheModelStaysInThePicture) {
     double widest = 0;
     for (int k = 0; k < 96; ++k) {
       const CameraFrame frame = makeCameraFrame(turned(turntable, k / 96.0), width, height);
-      widest = std::max(widest, test::farthestInPicture(frame, corners));
+      widest = std::max(widest, farthestInPicture(frame, corners));
     }
     EXPECT_LT(widest, 1) << width;
     EXPECT_GT(widest, 0.85) << width;

@@ -10,10 +10,7 @@
 namespace whit {
 namespace {
 
-using test::expectError;
-using test::finalized;
-using test::sceneOf;
-using test::square;
+using namespace test;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
@@ -85,7 +82,7 @@ const std::vector<Refusal>& refusals() {
 }
 
 TEST(Validate, RefusesNamingTheThingAtFault) {
-  EXPECT_NO_THROW(finalized(sceneOf(square())));
+  EXPECT_NO_THROW(finalized(square()));
   for (const Refusal& r : refusals()) {
     SCOPED_TRACE(r.name);
     SceneDescription d = sceneOf(square());
