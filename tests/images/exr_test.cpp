@@ -54,6 +54,12 @@ class ExrTest : public ImageTest {
     return path("foreign.exr");
   }
   RawImage raw(const ForeignFile& file) { return read(write(file)); }
+  void writeRgba(const Imf::Header& header, Imf::RgbaChannels channels,
+                 const std::vector<Imf::Rgba>& pixels) {
+    Imf::RgbaOutputFile file(path("a.exr").c_str(), header, channels);
+    file.setFrameBuffer(pixels.data(), 1, static_cast<std::size_t>(file.dataWindow().max.x + 1));
+    file.writePixels(file.dataWindow().max.y + 1);
+  }
 };
 
 TEST_F(ExrTest, FloatsKeepTheirBits) {
@@ -88,19 +94,14 @@ TEST_F(ExrTest, CropsKeepTheirPlace) {
   expectStored(Image(1, 1));
 }
 
-TEST_F(ExrTest, MetadataComesBackAndTheBytesAreReproducible) {
-  const Image image(4, 4);
+TEST_F(ExrTest, MetadataComesBack) {
   const ImageMetadata metadata = {{"crop", "0,0,4,4"},
                                   {"name", "atrium"},  // OpenEXR has an attribute of this name
                                   {"compression", "none"},
                                   {"scene", "caf\xc3\xa9"},
                                   {"type", "nonsense"}};
-  writeExr(path("a.exr"), image, metadata);
-  writeExr(path("b.exr"), image, metadata);
-  EXPECT_EQ(load(path("a.exr")), load(path("b.exr")));
-
+  writeExr(path("a.exr"), Image(4, 4), metadata);
   EXPECT_TRUE(std::ranges::is_permutation(readExrMetadata(path("a.exr")), metadata));
-  EXPECT_EQ(readBack().pixels.size(), 16u);
 }
 
 // The places of points in the picture are worked out by hand: the eye looks along -z.
@@ -280,12 +281,8 @@ TEST_F(ExrTest, OfSeveralPartsTheFirstIsRead) {
 // Chroma is stored for every fourth pixel, in half floats.
 TEST_F(ExrTest, LuminanceAndChroma) {
   constexpr int kSide = 16;
-  const std::vector<Imf::Rgba> pixels(kSide * kSide, Imf::Rgba(0.25f, 0.5f, 0.75f, 1));
-  {
-    Imf::RgbaOutputFile file(path("a.exr").c_str(), Imf::Header(kSide, kSide), Imf::WRITE_YC);
-    file.setFrameBuffer(pixels.data(), 1, kSide);
-    file.writePixels(kSide);
-  }
+  writeRgba(Imf::Header(kSide, kSide), Imf::WRITE_YC,
+            std::vector(kSide * kSide, Imf::Rgba(0.25f, 0.5f, 0.75f, 1)));
 
   constexpr float kHalf = 2e-3f;
   for (const Rgb& pixel : readBack().pixels) {
@@ -315,15 +312,11 @@ TEST_F(ExrTest, CubesBecomeSkies) {
     }
   }
 
-  {
-    Imf::Header header(data, data);
-    Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
-    Imf::RgbaOutputFile file(path("cube.exr").c_str(), header, Imf::WRITE_RGB);
-    file.setFrameBuffer(pixels.data(), 1, kSide);
-    file.writePixels(6 * kSide);
-  }
+  Imf::Header header(data, data);
+  Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+  writeRgba(header, Imf::WRITE_RGB, pixels);
 
-  const EnvironmentImage sky = makeEnvironment(read(path("cube.exr")));
+  const EnvironmentImage sky = makeEnvironment(read(path("a.exr")));
   ASSERT_EQ((ImageSize{sky.width, sky.height}), (ImageSize{4 * kSide, 2 * kSide}));
 
   constexpr float kHalf = 2e-3f;
@@ -404,7 +397,7 @@ TEST_F(ExrTest, DwaaIsNear) {
   EXPECT_EQ(writtenHeader().compression(), Imf::DWAA_COMPRESSION);
 }
 
-TEST_F(ExrTest, TheBytesDoNotDependOnTheThreads) {
+TEST_F(ExrTest, TheBytesAreReproducibleByAnyThreads) {
   for (const ExrStorage storage :
        {ExrStorage::zip, ExrStorage::none, ExrStorage::half, ExrStorage::dwaa}) {
     writeExr(path("one.exr"), smooth(), {{"a", "b"}}, storage, 1);

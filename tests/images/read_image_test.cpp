@@ -63,8 +63,7 @@ TEST_F(ReadImage, JpegOfInks) {
   };
 
   const auto file = [](const std::string& name) {
-    const char* source = std::getenv("WHIT_SOURCE_DIR");
-    return load(std::string(source ? source : ".") + "/tests/fuzz/corpus/jpeg/" + name);
+    return load(std::string(std::getenv("WHIT_SOURCE_DIR")) + "/tests/fuzz/corpus/jpeg/" + name);
   };
 
   Bytes flat = file("inksFlat.jpg");

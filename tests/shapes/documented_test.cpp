@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -10,9 +9,11 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/text.h"
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "make/shape.h"
+#include "temporary_folder.h"
 
 namespace whit {
 namespace {
@@ -65,8 +66,7 @@ class RecordingParameters : public ShapeParameters {
 };
 
 std::vector<std::string> lines() {
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  std::ifstream file(std::string(source ? source : ".") + "/scenes/README.md");
+  std::ifstream file(std::string(std::getenv("WHIT_SOURCE_DIR")) + "/scenes/README.md");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(line);
   return lines;
@@ -80,35 +80,27 @@ std::string rowOf(const std::string& name) {
   return {};
 }
 
-void expectListed(const std::string& row, const std::vector<std::string>& items) {
-  for (const std::string& item : items) {
-    EXPECT_TRUE(hasText(row, item)) << item << " is not in: " << row;
-  }
-}
-
-std::vector<std::string> slotsOf(const Shape& shape) {
-  std::vector<std::string> slots;
+void noteSlots(const Shape& shape, std::vector<std::string>& items) {
   for (const ShapePart& part : shape.parts) {
-    if (part.slot != "surface") slots.push_back("`" + part.slot + "`");
+    if (part.slot != "surface") items.push_back("`" + part.slot + "`");
   }
-  return slots;
 }
-std::vector<std::string> slotsOf(const Texture&) { return {}; }
+void noteSlots(const Texture&, std::vector<std::string>&) {}
 
 template <typename Generators>
 void expectDocumented(const Generators& generators) {
   for (const auto& [name, generate] : generators) {
     RecordingParameters parameters;
-    const std::vector<std::string> slots = slotsOf(generate(parameters));
+    const auto made = generate(parameters);
+    std::vector<std::string> items = parameters.listed();
+    noteSlots(made, items);
+
     const std::string row = rowOf(name);
     ASSERT_FALSE(row.empty()) << name;
-    expectListed(row, parameters.listed());
-    expectListed(row, slots);
+    for (const std::string& item : items) EXPECT_TRUE(hasText(row, item));
 
     // The row lists nothing else: every name is between two backquotes.
-    const auto marks = std::count(row.begin(), row.end(), '`');
-    EXPECT_EQ(static_cast<std::size_t>(marks), 2 * (1 + parameters.listed().size() + slots.size()))
-        << row;
+    EXPECT_EQ(std::ranges::count(row, '`'), std::ssize(items) * 2 + 2) << row;
   }
 }
 
@@ -122,17 +114,15 @@ TEST(Documented, ExampleCanBeRead) {
   const auto end = std::find(begin, page.end(), "```");
   ASSERT_NE(end, page.end());
 
-  const std::string name = testing::TempDir() + "whit-documented-example.json";
-  std::ofstream file(name);
-  for (auto line = begin + 1; line != end; ++line) file << *line << "\n";
-  file.close();
+  const TemporaryFolder folder;
+  const std::string name = folder / "example.json";
+  std::ofstream(name) << joined({begin + 1, end}, "\n");
   Warnings warnings;
   const Scene scene = Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
 
   EXPECT_TRUE(scene.effects.has(Effect::mirror));
   EXPECT_TRUE(scene.effects.has(Effect::absorption));
   EXPECT_EQ(scene.instances.size(), 3u);
-  std::remove(name.c_str());
 }
 
 }  // namespace

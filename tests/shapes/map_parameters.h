@@ -42,13 +42,11 @@ class MapParameters : public ShapeParameters {
     return value;
   }
 
-  // Returns the keys that were given but not queried.
-  std::vector<std::string> unasked() const {
-    std::vector<std::string> keys;
+  // Throws if a key was given but not queried.
+  void expectAllAsked() const {
     for (const auto& [key, value] : values_) {
-      if (!asked_.count(key)) keys.push_back(key);
+      if (!asked_.contains(key)) throwBadScene(key, "unknown key");
     }
-    return keys;
   }
 
  private:
@@ -69,7 +67,7 @@ auto madeBy(const Generators& generators, const std::string& name,
             std::map<std::string, Value> values) {
   MapParameters parameters(std::move(values));
   auto made = generators.at(name)(parameters);
-  if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
+  parameters.expectAllAsked();
   return made;
 }
 

@@ -11,14 +11,9 @@
 namespace whit::test {
 namespace {
 
-std::filesystem::path sourceDir() {
-  const char* dir = std::getenv("WHIT_SOURCE_DIR");
-  return dir ? dir : ".";
-}
-
 Scene load(const std::string& file, Warnings& warnings) {
-  return Scene::finalize(loadScene((sourceDir() / "scenes" / file).string(), {}, warnings),
-                         warnings);
+  const std::string folder = std::getenv("WHIT_SOURCE_DIR");
+  return Scene::finalize(loadScene(folder + "/scenes/" + file, {}, warnings), warnings);
 }
 
 // Expects what all shipped scenes have. They need no repairs.

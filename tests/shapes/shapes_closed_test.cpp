@@ -74,59 +74,52 @@ TEST(Shapes, AssembliesAreClosedAndFaceOutwards) {
                true);
 }
 
-TEST(EveryShape, HasUnitNormalsThatAgreeWithTheWinding) {
+void expectIndicesInRangeAndCornersApart(const Mesh& mesh) {
+  ASSERT_NE(mesh.triangles.empty(), mesh.spheres.empty());
+  for (const Vec3f& p : mesh.positions) ASSERT_TRUE(isFinite(p));
+  for (const std::size_t t : indices(mesh.triangles)) {
+    for (const std::uint32_t k : mesh.triangles[t]) ASSERT_LT(k, mesh.positions.size());
+    ASSERT_GT(length(areaVector(mesh, t)), 0) << "triangle " << t;
+  }
+}
+
+void expectUnitNormalsThatAgreeWithTheWinding(const Mesh& mesh) {
   constexpr double kUnit = 1e-6;  // three roundings to float
+  if (mesh.normals.empty()) return;
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  for (const Vec3f& n : mesh.normals) EXPECT_NEAR(length(Vec3d(n)), 1, kUnit);
+
+  std::size_t against = 0;
+  for (const std::size_t t : indices(mesh.triangles)) {
+    Vec3d mean;
+    for (const std::uint32_t k : mesh.triangles[t]) mean += Vec3d(mesh.normals[k]);
+    against += dot(areaVector(mesh, t), mean) < 0;
+  }
+
+  // Strongly bent sheets (the tips of limbs, curled leaves) may have a few such triangles.
+  EXPECT_LE(50 * against, mesh.triangles.size());
+}
+
+TEST(EveryShape, IsSoundAndComesOutTheSameEachTime) {
   for (const auto& [name, generator] : shapeGenerators()) {
-    for (const ShapePart& part : generate(name).parts) {
-      SCOPED_TRACE(part.slot + " of " + name);
-      const Mesh& mesh = part.mesh;
+    const Shape shape = generate(name), again = generate(name);
+    ASSERT_EQ(shape.parts.size(), again.parts.size()) << name;
+    EXPECT_EQ(shape.placements, again.placements) << name;
+
+    for (const std::size_t k : indices(shape.parts)) {
+      const auto& [slot, mesh] = shape.parts[k];
+      SCOPED_TRACE(slot + " of " + name);
       EXPECT_TRUE(mesh.materials.empty());
       EXPECT_EQ(mesh.uvs.size(), mesh.positions.size());
+      expectIndicesInRangeAndCornersApart(mesh);
+      expectUnitNormalsThatAgreeWithTheWinding(mesh);
 
-      if (mesh.normals.empty()) continue;
-      ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
-      for (const Vec3f& n : mesh.normals) EXPECT_NEAR(length(Vec3d(n)), 1, kUnit);
-
-      std::size_t against = 0;
-      for (const std::size_t t : indices(mesh.triangles)) {
-        Vec3d mean;
-        for (const std::uint32_t k : mesh.triangles[t]) mean += Vec3d(mesh.normals[k]);
-        against += dot(areaVector(mesh, t), mean) < 0;
-      }
-
-      // Strongly bent sheets (the tips of limbs, curled leaves) may have a few such triangles.
-      EXPECT_LE(50 * against, mesh.triangles.size());
+      const Mesh& other = again.parts[k].mesh;
+      EXPECT_EQ(mesh.positions, other.positions);
+      EXPECT_EQ(mesh.normals, other.normals);
+      EXPECT_EQ(mesh.triangles, other.triangles);
+      EXPECT_EQ(mesh.spheres, other.spheres);
     }
-  }
-}
-
-TEST(EveryShape, KeepsIndicesInRangeAndCornersApart) {
-  for (const auto& [name, generator] : shapeGenerators()) {
-    for (const auto& [slot, mesh] : generate(name).parts) {
-      SCOPED_TRACE(slot + " of " + name);
-      ASSERT_NE(mesh.triangles.empty(), mesh.spheres.empty());
-      for (const Vec3f& p : mesh.positions) ASSERT_TRUE(isFinite(p));
-      for (const std::size_t t : indices(mesh.triangles)) {
-        for (const std::uint32_t k : mesh.triangles[t]) ASSERT_LT(k, mesh.positions.size());
-        ASSERT_GT(length(areaVector(mesh, t)), 0) << "triangle " << t;
-      }
-    }
-  }
-}
-
-TEST(EveryShape, ComesOutTheSameEachTime) {
-  for (const auto& [name, generator] : shapeGenerators()) {
-    SCOPED_TRACE(name);
-    const Shape a = generate(name), b = generate(name);
-    ASSERT_EQ(a.parts.size(), b.parts.size());
-    for (const std::size_t k : indices(a.parts)) {
-      const Mesh &one = a.parts[k].mesh, &other = b.parts[k].mesh;
-      EXPECT_EQ(one.positions, other.positions);
-      EXPECT_EQ(one.normals, other.normals);
-      EXPECT_EQ(one.triangles, other.triangles);
-      EXPECT_EQ(one.spheres, other.spheres);
-    }
-    EXPECT_EQ(a.placements, b.placements);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <thread>
 
-#include "cli/run_program.h"
+#include "cli/run_command.h"
 #include "output/open_and_warn.h"
 #include "viewer/session/render_thread.h"
 
@@ -32,14 +32,14 @@ inline void expectSameFilm(const Film& a, const Film& b) {
   EXPECT_EQ(a.display.rgba, b.display.rgba);
 }
 
-class RenderThreadTest : public testing::Test {
+class RenderThreadTest : public cli::TinySceneTest {
  protected:
   RenderThreadTest() {
     common_.quiet = true;
     common_.render.threads = 2;
     request_.options = common_.render;
     request_.options.size = {48, 200};  // high enough for several bands
-    open(cli::writeTinyScene(folder_));
+    open(tiny_);
   }
 
   void open(const std::string& name) {
@@ -69,19 +69,22 @@ class RenderThreadTest : public testing::Test {
     return taken(thread);
   }
 
-  // Returns the picture of a renderer that is made for this request.
-  Film expected() const {
+  // Returns the picture that a renderer that is made for this request makes in this way.
+  template <typename Render>
+  Film filmBy(const Render& render) const {
     RenderOptions options = request_.options;
     options.spp = request_.spp;
     Renderer renderer(scene_->scene, options);
     Film film = makeFilm(scene_->scene, options);
-    renderer.render(request_.camera, film);
+    render(renderer, film);
     return film;
+  }
+  Film expected() const {
+    return filmBy([&](Renderer& renderer, Film& film) { renderer.render(request_.camera, film); });
   }
 
   void expectRightPicture(RenderThread& thread) { expectSameFilm(traced(thread).film, expected()); }
 
-  cli::TemporaryFolder folder_;
   cli::CommonOptions common_;
   std::string name_;
   std::shared_ptr<OpenScene> opened_;

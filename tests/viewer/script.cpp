@@ -4,10 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <sstream>
-#include <string_view>
+#include <stdexcept>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "viewer/panel.h"
 
@@ -17,23 +19,17 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kLargestNumber = 1e6;
-
-[[noreturn]] void expected(const std::string& what) { throwUsage("expected " + what); }
-
-std::string keyNamed(const std::string& name) {
-  const std::vector<std::string> known = keyNames();
-  if (std::ranges::find(known, name) != known.end()) return name;
-  throwUsage("there is no key '" + name + "'" + didYouMean(name, known));
+// Words that do not hold this are refused by parseScript(), which names the syntax.
+void require(bool holds) {
+  if (!holds) throw std::invalid_argument("words");
 }
 
 double number(const std::string& text) {
+  constexpr double kLargest = 1e6;
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end || !(std::abs(value) <= kLargestNumber)) {
-    expected("a number of at most 1e6, got '" + text + "'");
-  }
+  require(error == std::errc() && stop == end && std::abs(value) <= kLargest);
   return value;
 }
 
@@ -41,65 +37,61 @@ int framesOf(double seconds) {
   return std::max(1, static_cast<int>(std::lround(seconds / ScriptedUser::kSecondsPerFrame)));
 }
 
+template <typename Member, typename Value>
+ScriptCommand setting(Member ScriptStep::*member, const Value& value) {
+  return {[=](int, Input&, ScriptStep& step) { step.*member = value; }};
+}
+
 ScriptCommand keyCommand(const Words& words) {
-  if (words.size() != 2 && words.size() != 3) expected("key NAME [SECONDS]");
-
-  constexpr std::string_view kControl = "Ctrl+";
   // A key with Ctrl is a command, and is not held.
-  if (words.size() == 2 && words[1].starts_with(kControl)) {
-    keyNamed(words[1].substr(kControl.size()));
-    return {[key = words[1]](int, Input& input, ScriptStep&) { input.pressed.push_back(key); }};
-  }
+  constexpr std::string_view kControl = "Ctrl+";
+  const std::string& name = words[1];
+  const bool isHeld = !name.starts_with(kControl);
+  require(contains(keyNames(), isHeld ? name : name.substr(kControl.size())));
 
-  const auto hold = [key = keyNamed(words[1])](int frame, Input& input, ScriptStep&) {
-    if (frame == 0) input.pressed.push_back(key);
-    input.held.insert(key);
+  const auto press = [=](int frame, Input& input, ScriptStep&) {
+    if (frame == 0) input.pressed.push_back(name);
+    if (isHeld) input.held.insert(name);
   };
-  return {hold, words.size() == 3 ? framesOf(number(words[2])) : 1};
+  return {press, words.size() > 2 ? framesOf(number(words[2])) : 1};
 }
 
 ScriptCommand mouseCommand(const Words& words) {
-  constexpr std::pair<const char*, Drag Drags::*> kButtons[] = {
+  const std::map<std::string, Drag Drags::*> buttons{
       {"left", &Input::left}, {"right", &Input::right}, {"middle", &Input::middle}};
-  for (const auto& [name, button] : kButtons) {
-    if (words.size() != 4 || words[1] != name) continue;
-    return {[button = button, x = number(words[2]), y = number(words[3])](int, Input& input,
-                                                                          ScriptStep&) {
-      (input.*button).x += x;
-      (input.*button).y += y;
-    }};
-  }
-  expected("mouse left|right|middle DX DY");
+  const Drag by{number(words[2]), number(words[3])};
+  return {[button = buttons.at(words[1]), by](int, Input& input, ScriptStep&) {
+    (input.*button).x += by.x;
+    (input.*button).y += by.y;
+  }};
 }
 
 ScriptCommand wheelCommand(const Words& words) {
-  if (words.size() != 2) expected("wheel NOTCHES");
   return {[notches = number(words[1])](int, Input& input, ScriptStep&) { input.wheel += notches; }};
 }
 
-ScriptCommand waitCommand(const Words& words) {
-  if (words.size() == 2 && words[1] == "sharp") return {nullptr, 1, true};
-  if (words.size() != 3 || (words[2] != "frames" && words[2] != "seconds")) {
-    expected("wait N frames, wait N seconds or wait sharp");
-  }
+ScriptCommand sharpCommand(const Words& words) {
+  require(words[1] == "sharp");
+  return {nullptr, 1, true};
+}
 
+ScriptCommand waitCommand(const Words& words) {
+  require(words[2] == "frames" || words[2] == "seconds");
   const double amount = number(words[1]);
   return {nullptr,
           words[2] == "seconds" ? framesOf(amount) : std::max(1, static_cast<int>(amount))};
 }
 
 ScriptCommand screenshotCommand(const Words& words) {
-  if (words.size() != 2 || !words[1].ends_with(".png")) expected("screenshot FILE.png");
-  return {[file = words[1]](int, Input&, ScriptStep& step) { step.screenshot = file; }};
+  require(words[1].ends_with(".png"));
+  return setting(&ScriptStep::screenshot, words[1]);
 }
 
 ScriptCommand clickCommand(const Words& words) {
   constexpr int kFrames = 4;  // the pointer goes to the place, presses, moves along and is released
-  if (words.size() != 3 && words.size() != 5) expected("click X Y [X2 Y2]");
-
   const std::array from{number(words[1]), number(words[2])};
   std::array to = from;
-  if (words.size() == 5) to = {number(words[3]), number(words[4])};
+  if (words.size() > 3) to = {number(words[3]), number(words[4])};
 
   const auto point = [=](int frame, Input& input, ScriptStep&) {
     const auto& [x, y] = frame < 2 ? from : to;
@@ -109,75 +101,84 @@ ScriptCommand clickCommand(const Words& words) {
 }
 
 ScriptCommand pointCommand(const Words& words) {
-  if (words.size() != 3) expected("point X Y");
-  const Input::Pointer rest{number(words[1]), number(words[2])};
-  return {[rest](int, Input&, ScriptStep& step) { step.rest = rest; }};
+  return setting(&ScriptStep::rest, Input::Pointer{number(words[1]), number(words[2])});
 }
 
 ScriptCommand panelCommand(const Words& words) {
-  if (words.size() != 2) expected("panel NAME");
-  const std::vector<std::string> tabs(kPanelTabs.begin(), kPanelTabs.end());
-  if (std::find(tabs.begin(), tabs.end(), words[1]) == tabs.end()) {
-    throwUsage("the panel has no tab '" + words[1] + "'" + didYouMean(words[1], tabs));
-  }
-  return {[tab = words[1]](int, Input&, ScriptStep& step) { step.tab = tab; }};
+  require(contains(kPanelTabs, words[1]));
+  return setting(&ScriptStep::tab, words[1]);
 }
 
 ScriptCommand dropCommand(const Words& words) {
-  if (words.size() != 2) expected("drop FILE");
   return {[file = words[1]](int, Input& input, ScriptStep&) { input.dropped.push_back(file); }};
 }
 
 ScriptCommand resizeCommand(const Words& words) {
-  constexpr double kLargestSide = 16384;
-  const auto side = [&](std::size_t i) { return words.size() == 3 ? number(words[i]) : 0; };
-  const double width = side(1), height = side(2);
-  const auto fits = [](double side) { return side >= 1 && side <= kLargestSide; };
-  if (!fits(width) || !fits(height)) expected("resize W H, from 1 to 16384");
-
-  const ImageSize size{static_cast<int>(width), static_cast<int>(height)};
-  return {[size](int, Input&, ScriptStep& step) { step.resize = size; }};
+  constexpr int kLargestSide = 16384;
+  const ImageSize size{static_cast<int>(number(words[1])), static_cast<int>(number(words[2]))};
+  for (const int side : {size.width, size.height}) require(side >= 1 && side <= kLargestSide);
+  return setting(&ScriptStep::resize, size);
 }
 
 ScriptCommand errorsCommand(const Words& words) {
-  if (words.size() != 2 || (words[1] != "show" && words[1] != "end")) {
-    expected("errors show or errors end");
-  }
-  return {[show = words[1] == "show"](int, Input&, ScriptStep& step) { step.showErrors = show; }};
+  const bool show = words[1] == "show";
+  require(show || words[1] == "end");
+  return setting(&ScriptStep::showErrors, show);
 }
 
+template <bool ScriptStep::*kFlag>
+ScriptCommand plainCommand(const Words&) {
+  return setting(kFlag, true);
+}
+
+// Commands by their syntax: the first word is the name, and those in brackets may be left out.
 constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = {
-    {"key", keyCommand},
-    {"mouse", mouseCommand},
-    {"wheel", wheelCommand},
-    {"wait", waitCommand},
-    {"click", clickCommand},
-    {"point", pointCommand},
-    {"screenshot", screenshotCommand},
-    {"panel", panelCommand},
-    {"drop", dropCommand},
-    {"resize", resizeCommand},
-    {"errors", errorsCommand},
+    {"key NAME [SECONDS]", keyCommand},
+    {"mouse left|right|middle DX DY", mouseCommand},
+    {"wheel NOTCHES", wheelCommand},
+    {"wait sharp", sharpCommand},
+    {"wait N frames|seconds", waitCommand},
+    {"click X Y [X2 Y2]", clickCommand},
+    {"point X Y", pointCommand},
+    {"screenshot FILE.png", screenshotCommand},
+    {"panel NAME", panelCommand},
+    {"drop FILE", dropCommand},
+    {"resize W H", resizeCommand},
+    {"errors show|end", errorsCommand},
+    {"minimize", plainCommand<&ScriptStep::minimize>},
+    {"restore", plainCommand<&ScriptStep::restore>},
+    {"bare", plainCommand<&ScriptStep::bare>},
+    {"asked", plainCommand<&ScriptStep::askedSamples>},
+    {"quit", plainCommand<&ScriptStep::quit>},
 };
-constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
-    {"minimize", &ScriptStep::minimize},
-    {"restore", &ScriptStep::restore},
-    {"bare", &ScriptStep::bare},
-    {"asked", &ScriptStep::askedSamples},
-    {"quit", &ScriptStep::quit}};
+
+Words wordsOf(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+// True if there are as many words as the syntax has, with or without those in brackets.
+bool fits(const Words& words, const Words& syntax) {
+  const auto required = std::ranges::count_if(
+      syntax, [](const std::string& word) { return word[0] != '[' && word.back() != ']'; });
+  return words.size() == syntax.size() || words.size() == static_cast<std::size_t>(required);
+}
 
 ScriptCommand commandOf(const Words& words) {
-  for (const auto& [name, read] : kCommands) {
-    if (words[0] == name) return read(words);
+  Words expected;
+  for (const auto& [text, read] : kCommands) {
+    const Words syntax = wordsOf(text);
+    if (syntax[0] != words[0]) continue;
+    expected.emplace_back(text);
+    if (!fits(words, syntax)) continue;
+    try {
+      return read(words);
+    } catch (const std::logic_error&) {
+      continue;
+    }
   }
-  for (const auto& [name, flag] : kPlainCommands) {
-    if (words[0] != name || words.size() != 1) continue;
-    return {[flag = flag](int, Input&, ScriptStep& step) { step.*flag = true; }};
-  }
-  expected(
-      "key, mouse, wheel, wait, screenshot, click, point, panel, drop, resize, minimize, restore, "
-      "bare, asked, errors or quit, got '" +
-      words[0] + "'");
+  if (expected.empty()) throwUsage("there is no command '" + words[0] + "'");
+  throwUsage("expected " + joined(expected, " or ") + ", got '" + joined(words, " ") + "'");
 }
 
 }  // namespace
@@ -187,10 +188,7 @@ std::vector<ScriptCommand> parseScript(const std::string& text, const std::strin
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    std::istringstream in(line.substr(0, line.find('#')));
-    Words words;
-    for (std::string word; in >> word;) words.push_back(word);
-
+    const Words words = wordsOf(line.substr(0, line.find('#')));
     if (words.empty()) continue;
     try {
       commands.push_back(commandOf(words));

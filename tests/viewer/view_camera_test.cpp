@@ -1,4 +1,5 @@
-// Flying, looking and orbiting: where the camera must end, worked out by hand.
+// Flying, looking and orbiting: where the camera must end, worked out by hand. A camera begins at
+// (0, 0, 5) and faces the origin unless a test moves it.
 #include <gtest/gtest.h>
 
 #include "engine/open_scene.h"
@@ -11,13 +12,6 @@ namespace {
 constexpr double kQuarterTurn = kPi / 2 / kRadiansPerPixel;  // pixels dragged
 constexpr float kTolerance = 1e-5f;                          // a few roundings of floats of size 5
 
-Camera facingOrigin() {
-  Camera camera;
-  camera.eye = {0, 0, 5};
-  camera.at = {0, 0, 0};
-  return camera;
-}
-
 void expectNear(const Vec3f& a, const Vec3f& b, float tolerance = kTolerance) {
   EXPECT_LE(maxComponent(abs(a - b)), tolerance)
       << a.x << ',' << a.y << ',' << a.z << " instead of " << b.x << ',' << b.y << ',' << b.z;
@@ -26,7 +20,7 @@ void expectNear(const Vec3f& a, const Vec3f& b, float tolerance = kTolerance) {
 // A model in a box of sides 2 about the origin.
 const Box kModel{{-1, -1, -1}, {1, 1, 1}};
 
-CameraControl aroundModel(const Camera& camera = facingOrigin()) {
+CameraControl aroundModel(const Camera& camera = {}) {
   CameraControl control(camera, 1);
   control.set(camera, kModel);
   return control;
@@ -40,6 +34,12 @@ TEST(CameraControl, RestingKeepsEveryBit) {
   CameraControl control(camera, 1);
   EXPECT_FALSE(control.step({}, 1));
   EXPECT_TRUE(sameView(control.camera(), camera));
+}
+
+// Returns where a control that moves ends.
+Camera moved(CameraControl control, const CameraMotion& motion, double seconds = 0) {
+  EXPECT_TRUE(control.step(motion, seconds));
+  return control.camera();
 }
 
 struct Motion {
@@ -77,49 +77,41 @@ const Motion kAboutModels[] = {
      {0, 0, 0}},
 };
 
-void expectMoved(CameraControl control, const Motion& moved) {
-  EXPECT_TRUE(control.step(moved.motion, moved.seconds)) << moved.name;
-  expectNear(control.camera().eye, moved.eye);
-  expectNear(control.camera().at, moved.at);
+void expectMoved(const CameraControl& control, const Motion& by) {
+  SCOPED_TRACE(by.name);
+  const Camera camera = moved(control, by.motion, by.seconds);
+  expectNear(camera.eye, by.eye);
+  expectNear(camera.at, by.at);
 }
 
 TEST(CameraControl, MovesAndTurnsInRoomsAndAboutModels) {
-  for (const Motion& motion : kInRooms) {
-    SCOPED_TRACE(motion.name);
-    expectMoved(CameraControl(facingOrigin(), 2), motion);
-  }
-  for (const Motion& motion : kAboutModels) {
-    SCOPED_TRACE(motion.name);
-    expectMoved(aroundModel(), motion);
-  }
+  for (const Motion& motion : kInRooms) expectMoved(CameraControl(Camera(), 2), motion);
+  for (const Motion& motion : kAboutModels) expectMoved(aroundModel(), motion);
 }
 
 TEST(CameraControl, DiagonalsAreNoFaster) {
-  CameraControl control(facingOrigin(), 2);
-  control.step({.forward = 1, .right = 1, .up = 1}, 0.5);
-  EXPECT_NEAR(length(control.camera().eye - facingOrigin().eye), 1, kTolerance);
+  const CameraMotion diagonal{.forward = 1, .right = 1, .up = 1};
+  const Vec3f eye = moved(CameraControl(Camera(), 2), diagonal, kWalk).eye;
+  EXPECT_NEAR(length(eye - Camera().eye), 1, kTolerance);
 }
 
 TEST(CameraControl, UpIsTheCamerasOwn) {
-  Camera camera = facingOrigin();
+  Camera camera;
   camera.up = {3, 0, 0};
-  CameraControl control(camera, 1);
-  control.step({.up = 1}, 1);
-  expectNear(control.camera().eye, {1, 0, 5});
+  expectNear(moved(CameraControl(camera, 1), {.up = 1}, 1).eye, {1, 0, 5});
 }
 
 TEST(CameraControl, NeverTipsOver) {
-  CameraControl control(facingOrigin(), 1);
-  control.step({.turnY = 10 * kQuarterTurn}, 0);  // far down
+  const Camera down = moved(CameraControl(Camera(), 1), {.turnY = 10 * kQuarterTurn});
 
   // The view stays within the steepest angle to the horizon.
-  const Vec3f view = control.camera().at - control.camera().eye;
+  const Vec3f view = down.at - down.eye;
   EXPECT_NEAR(view.y, -5 * std::sin(kSteepestRadians), kTolerance);
   EXPECT_LT(view.z, 0);  // still ahead, not behind
 }
 
 TEST(CameraControl, StaysWhereScenesCanBe) {
-  CameraControl control(facingOrigin(), 3);
+  CameraControl control(Camera(), 3);
   const CameraMotion motion{.right = 1, .fast = true};
   // The position of the camera has limits too.
   for (int i = 0; i < 1000; ++i) control.step(motion, 1e15);
@@ -129,7 +121,7 @@ TEST(CameraControl, StaysWhereScenesCanBe) {
 }
 
 TEST(CameraControl, CreepsFarFromTheOrigin) {
-  Camera camera = facingOrigin();
+  Camera camera;
   camera.eye.x = camera.at.x = 1e6f;
   CameraControl control(camera, 0.01);  // a step is 1/6000, where floats are 1/16 apart
   for (int i = 0; i < 6000; ++i) control.step({.right = 1}, 1.0 / 60);
@@ -139,19 +131,15 @@ TEST(CameraControl, CreepsFarFromTheOrigin) {
 TEST(CameraControl, ViewAlongUpCanTurn) {
   Camera camera;
   camera.eye = {0, 5, 0};  // straight down, where `up` is no help
-  CameraControl control(camera, 1);
-  EXPECT_TRUE(control.step({.turnUp = 1}, 0.1));
-  EXPECT_TRUE(isFinite(control.camera().at));
-  EXPECT_NEAR(length(control.camera().at - control.camera().eye), 5, kTolerance);
+  const Vec3f at = moved(CameraControl(camera, 1), {.turnUp = 1}, 0.1).at;
+  EXPECT_NEAR(length(at - camera.eye), 5, kTolerance);
 }
 
 // The wheel moves between the nearest and the farthest distance, in diagonals of the model.
 TEST(CameraControl, TheWheelNeitherLosesAModelNorEntersIt) {
-  CameraControl control = aroundModel();
-  control.step({.wheel = 1e4}, 0);
-  EXPECT_NEAR(control.camera().eye.z, kNearest * std::sqrt(12.0), kTolerance);
-  control.step({.wheel = -1e5}, 0);
-  EXPECT_NEAR(control.camera().eye.z, kFarthest * std::sqrt(12.0), 10 * kTolerance);
+  const auto away = [](double notches) { return moved(aroundModel(), {.wheel = notches}).eye.z; };
+  EXPECT_NEAR(away(1e4), kNearest * std::sqrt(12.0), kTolerance);
+  EXPECT_NEAR(away(-1e5), kFarthest * std::sqrt(12.0), 10 * kTolerance);
 }
 
 // A drag across the window's height moves the point that is orbited by the height that is seen at
@@ -165,7 +153,7 @@ TEST(CameraControl, PansWithThePointer) {
                    {-0.1f * height, 0.05f * height, 5},
                    {-0.1f * height, 0.05f * height, 0}};
   expectMoved(aroundModel(), pan);
-  expectMoved(CameraControl(facingOrigin(), 1), pan);
+  expectMoved(CameraControl(Camera(), 1), pan);
 }
 
 TEST(CameraControl, NoDragLosesAModel) {
@@ -178,12 +166,11 @@ TEST(CameraControl, NoDragLosesAModel) {
 
 // The point that is orbited lies at the depth of the model's middle, wherever `at` is.
 TEST(CameraControl, OrbitsAModelWhoseCameraLooksAtAPointNearby) {
-  Camera camera = facingOrigin();
+  Camera camera;
   camera.at = {0, 0, 4.5f};
-  CameraControl control = aroundModel(camera);
+  const CameraControl control = aroundModel(camera);
   EXPECT_EQ(control.camera().at, camera.at);
-  control.step({.turnX = kQuarterTurn}, 0);
-  expectNear(control.camera().eye, {-5, 0, 0});
+  expectNear(moved(control, {.turnX = kQuarterTurn}).eye, {-5, 0, 0});
 }
 
 // The corner (1, 1, 1) lies at the border of the picture, so that its height is that of half the
@@ -201,7 +188,7 @@ TEST(CameraControl, FitsAModel) {
 }
 
 TEST(CameraControl, ParallelRaysComeCloserToo) {
-  Camera camera = facingOrigin();
+  Camera camera;
   camera.orthographicHeight = 4;
   CameraControl control = aroundModel(camera);
   control.step({.wheel = 1}, 0);
@@ -213,11 +200,11 @@ TEST(CameraControl, ParallelRaysComeCloserToo) {
 }
 
 TEST(CameraControl, WhatIsSeenFromOutsideIsOrbited) {
-  Camera camera = facingOrigin();
+  Camera camera;
   EXPECT_FALSE(boundsToOrbit(kModel, camera).empty());
   camera.eye = {0.5f, 0, 0};
   EXPECT_TRUE(boundsToOrbit(kModel, camera).empty());
-  EXPECT_FALSE(CameraControl(facingOrigin(), 1).orbits());
+  EXPECT_FALSE(CameraControl(Camera(), 1).orbits());
 }
 
 // Shipped scenes are orbited where they are things on a floor, and looked around in where they are

@@ -6,7 +6,6 @@
 #include <random>
 #include <type_traits>
 
-#include "cli/run_program.h"
 #include "core/error.h"
 #include "engine/engine.h"
 #include "io/image/image_file.h"
@@ -178,20 +177,17 @@ TEST(EditSettings, OfASceneFile) {
 
 // The model has maps that count only where a material is glossy, and names with characters that
 // pointers and shells treat specially.
-class EditedModel : public testing::Test {
+class EditedModel : public cli::TinySceneTest {
  protected:
   EditedModel() {
-    write("m.mtl",
-          "newmtl a/b~c\nKd 1 0.5 0\nillum 1\nmap_Ks t.png\n"
-          "newmtl it's=1\nKs 0.5 0.5 0.5\nmap_Ks t.png\n");
+    save("m.mtl",
+         "newmtl a/b~c\nKd 1 0.5 0\nillum 1\nmap_Ks t.png\n"
+         "newmtl it's=1\nKs 0.5 0.5 0.5\nmap_Ks t.png\n");
     writePng(folder_ / "t.png", DisplayImage{1, 1, {128, 128, 128, 255}}, {});
-    write("m.obj",
-          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
-          "usemtl a/b~c\nf 1/1 2/1 3/1\nusemtl it's=1\n"
-          "f 1/1 2/1 3/1\n");
-  }
-  void write(const std::string& file, const std::string& text) {
-    std::ofstream(folder_ / file) << text;
+    save("m.obj",
+         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+         "usemtl a/b~c\nf 1/1 2/1 3/1\nusemtl it's=1\n"
+         "f 1/1 2/1 3/1\n");
   }
   std::shared_ptr<OpenScene> open(const char* file) { return openWith(folder_ / file); }
 
@@ -206,8 +202,6 @@ class EditedModel : public testing::Test {
     EXPECT_EQ(warnings.size(), 1u);
     return *warnings.begin();
   }
-
-  cli::TemporaryFolder folder_;
 };
 
 // The image of a sky that is chosen has a negative value, which the reader repairs.
@@ -215,14 +209,14 @@ TEST_F(EditedModel, WarnsAsTheReaderDoes) {
   Image sky(4, 2);
   sky.pixels[3] = {-1, 0, 0};
   writeExr(folder_ / "sky.exr", sky, {});
-  write("s.json", R"({"whit": 1, "scene": [{"shape": "sphere"}]})");
+  save("s.json", R"({"whit": 1, "scene": [{"shape": "sphere"}]})");
   const auto warning = warningOf(
       {R"(/sky={"image": "sky.exr", "scale": 2})", R"(/sky={"image": "sky.exr", "scale": 3})"});
   EXPECT_EQ(warning.second.count, 1u) << "each kind is noted once";
 }
 
 TEST_F(EditedModel, WarnsOfMaterialsThatSendOutMoreThanTheyGet) {
-  write("s.json", R"({"whit": 1, "materials": {"m": {"diffuse": 0.5}}, "scene":
+  save("s.json", R"({"whit": 1, "materials": {"m": {"diffuse": 0.5}}, "scene":
     [{"shape": "sphere", "material": "m"}]})");
   const auto [words, warning] = warningOf({"/materials/m/mirror=0.9"});
   EXPECT_TRUE(words.starts_with("material whose parts exceed 1 in sum"));
@@ -236,9 +230,9 @@ TEST_F(EditedModel, IsEditedInPlaceAsScenesAre) {
   EXPECT_EQ(materials[0].specularMap, kNoTexture);
   EXPECT_NE(materials[1].specularMap, kNoTexture);
 
-  write("items.json", R"({"whit": 1, "scene": [{"shape": "quad"}, {"shape": "box"}]})");
-  write("far.obj", "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n");
-  write("s.json", R"({"whit": 1, "lights": [
+  save("items.json", R"({"whit": 1, "scene": [{"shape": "quad"}, {"shape": "box"}]})");
+  save("far.obj", "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n");
+  save("s.json", R"({"whit": 1, "lights": [
     {"position": [1, 2, 3], "intensity": 5}, {"type": "directional", "direction": [0, -1, 1],
     "irradiance": 2}, {"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
     "intensity": 3}], "scene": [{"group": [{"model": "m.obj",
@@ -252,7 +246,7 @@ TEST_F(EditedModel, IsEditedInPlaceAsScenesAre) {
 // A roughness that is set is meant as it stands, so that the map of a model's material goes.
 TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
   writePng(folder_ / "r.png", DisplayImage{2, 1, {0, 50, 0, 255, 0, 200, 0, 255}}, {});
-  write("m.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+  save("m.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
     "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
       "material": 0}]}],
@@ -265,8 +259,8 @@ TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36,
       "byteLength": 24}],
     "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
-                  "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"
-                  R"("}]})");
+                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"
+                 R"("}]})");
   Editing editing(folder_ / "m.gltf");
   const auto hasMap = [&] { return editing.now().materials[0].roughnessMap != kNoTexture; };
   EXPECT_TRUE(hasMap());
@@ -280,7 +274,7 @@ class EditedSky : public EditedModel {
  protected:
   EditedSky() {
     writeSky(folder_ / "sky.exr");
-    write("s.json", R"({"whit": 1, "sky": {"image": "sky.exr", "scale": 0.5},
+    save("s.json", R"({"whit": 1, "sky": {"image": "sky.exr", "scale": 0.5},
       "ambient": {"fromSky": 0.5}, "materials": {"glossy": {"specular": 0.5, "roughness": 0.5}},
       "scene": [{"shape": "sphere", "material": "glossy"}]})");
   }
@@ -324,7 +318,7 @@ TEST_F(EditedSky, OfAModelHasNoMembersOfItsOwn) {
 
 // A scene that is shown as a model is has a supplied sky, which the lights make brighter.
 TEST_F(EditedSky, OfASceneWithTheViewOfAModel) {
-  write("s.json", R"({"whit": 1, "view": "model", "lights":
+  save("s.json", R"({"whit": 1, "view": "model", "lights":
     [{"position": [1, 2, 3], "intensity": 5}], "materials": {"m": {"diffuse": 0.5}},
     "scene": [{"model": "m.obj"}, {"shape": "sphere", "material": "m"}]})");
   const std::string brighter = "/lights/0/intensity=500";
@@ -343,7 +337,7 @@ TEST_F(EditedSky, OfASceneWithTheViewOfAModel) {
 }
 
 TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
-  write("s.json", R"({"whit": 1, "scene": [{"shape": "sphere"}]})");
+  save("s.json", R"({"whit": 1, "scene": [{"shape": "sphere"}]})");
   Editing editing(folder_ / "s.json", withSky(folder_ / "sky.exr"));
   editing.scene.ambient.ofSky = 0.5;
   std::vector<std::string> settings;

@@ -68,13 +68,12 @@ TEST_F(Viewer, SaysWhatIsUnderThePointer) {
   expectSameCodes("at.png", "before.png");
 
   play("key V\n" + script, "500x300");
-  const RawImage before = codes("before.png"), at = codes("at.png");
-  EXPECT_FALSE(sameIn(before, at, 210, 160, 300, 200));
+  EXPECT_FALSE(sameIn("before.png", "at.png", {210, 160, 300, 200}));
   // Only pixels in the tooltip's box may differ.
-  EXPECT_TRUE(sameIn(before, at, 0, 0, 500, 151));
-  EXPECT_TRUE(sameIn(before, at, 0, 240, 500, 300));
-  EXPECT_TRUE(sameIn(before, at, 0, 0, 201, 300));
-  EXPECT_TRUE(sameIn(before, at, 420, 0, 500, 300));
+  EXPECT_TRUE(sameIn("before.png", "at.png", {0, 0, 500, 151}));
+  EXPECT_TRUE(sameIn("before.png", "at.png", {0, 240, 500, 300}));
+  EXPECT_TRUE(sameIn("before.png", "at.png", {0, 0, 201, 300}));
+  EXPECT_TRUE(sameIn("before.png", "at.png", {420, 0, 500, 300}));
 }
 
 }  // namespace

@@ -18,12 +18,10 @@ class ViewPieces : public FrameTracerTest, public testing::WithParamInterface<st
     const TracedFrame frame = traced();
     EXPECT_GT(pieces_, 5);
 
-    RenderOptions options = request_.options;
-    options.spp = request_.spp;
-    Renderer renderer(scene_->scene, options);
-    Film film = makeFilm(scene_->scene, options);
-    const test::DebugFrame whole =
-        test::renderDebugView(renderer, request_.camera, film, request_.view);
+    test::DebugFrame whole;
+    const Film film = filmBy([&](Renderer& renderer, Film& target) {
+      whole = test::renderDebugView(renderer, request_.camera, target, request_.view);
+    });
 
     EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
     ASSERT_TRUE(frame.debug);

@@ -68,7 +68,7 @@ TEST_F(RayPicking, PicturesUnderWayGoOn) {
   request_.interruptible = true;
   thread.ask(request_);
   thread.query(query);
-  EXPECT_EQ(taken(thread).film.display.rgba, expected().display.rgba);
+  expectSameFilm(taken(thread).film, expected());
 
   const auto pick = thread.takePick();
   ASSERT_TRUE(pick);

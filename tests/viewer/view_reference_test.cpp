@@ -31,10 +31,8 @@ class ReferenceViews : public FrameTracerTest {
 
   // Returns the picture by the scalar reference.
   Film reference() const {
-    Renderer renderer(scene_->scene, request_.options);
-    Film film = makeFilm(scene_->scene, request_.options);
-    renderReference(renderer, request_.camera, film);
-    return film;
+    return filmBy(
+        [&](Renderer& renderer, Film& film) { renderReference(renderer, request_.camera, film); });
   }
 
   ReportCount count_;
@@ -134,8 +132,7 @@ TEST_F(Viewer, TheReferenceHasTheBitsOfItsCommand) {
   // The saved files are those of the command as well.
   expectSameCodes("tiny-reference-0001.png", "reference.png");
   render(lines[0], "again.exr");
-  EXPECT_EQ(readImage(folder_ / "tiny-reference-0001.exr", ImageLimits()).pixels,
-            readImage(folder_ / "again.exr", ImageLimits()).pixels);
+  EXPECT_EQ(imageIn("tiny-reference-0001.exr").pixels, imageIn("again.exr").pixels);
 }
 
 }  // namespace

@@ -45,20 +45,38 @@ TEST(ResolutionControl, FewCoresAreAskedForLess) {
   EXPECT_EQ(defaultRate(5), 60);
 }
 
-TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
-  ResolutionControl fast(kDefaultRate, 1), patient(kLeastRate, 1);
-  EXPECT_EQ(chosenAfter(100, fast), (Sharpness{0.375, 1}));      // 14.1 ms; 0.4375 would take 19
-  EXPECT_EQ(chosenAfter(100, patient), (Sharpness{0.6875, 1}));  // 47 ms of 50; 0.75 would take 56
-  EXPECT_EQ(chosenAfter(10, fast), (Sharpness{1, 1}));
-  EXPECT_EQ(chosenAfter(1e6, fast), (Sharpness{kScales.back(), 1}));
-}
+// What controls of a rate and a number of samples choose after frames of one length after another.
+struct Course {
+  double rate;
+  int spp;
+  std::vector<std::pair<double, Sharpness>> chosenAfterMs;
+};
 
-TEST(ResolutionControl, SamplesGoBeforeResolution) {
-  ResolutionControl control(kDefaultRate, 16);
-  EXPECT_EQ(chosenAfter(0.5, control), (Sharpness{1, 16}));
-  EXPECT_EQ(chosenAfter(3, control), (Sharpness{1, 4}));  // 12 ms; 8 would take 24
-  EXPECT_EQ(chosenAfter(16, control), (Sharpness{1, 1}));
-  EXPECT_EQ(chosenAfter(100, control), (Sharpness{0.375, 1}));
+TEST(ResolutionControl, ChoosesWhatHoldsTheRate) {
+  const Course courses[] = {
+      {kDefaultRate,
+       1,
+       {{100, {0.375, 1}},  // 14.1 ms; 0.4375 would take 19
+        {10, {1, 1}},
+        {1e6, {kScales.back(), 1}}}},
+      {kLeastRate, 1, {{100, {0.6875, 1}}}},  // 47 ms of 50; 0.75 would take 56
+      // Samples go before resolution.
+      {kDefaultRate,
+       16,
+       {{0.5, {1, 16}},
+        {3, {1, 4}},  // 12 ms; 8 would take 24
+        {16, {1, 1}},
+        {100, {0.375, 1}}}},
+      // The scale does not flutter: 0.9375 would take 15.8 ms in the third case. It would hold the
+      // rate, but so barely that the control does not return to it.
+      {kDefaultRate, 1, {{15.5, {1, 1}}, {20, {0.875, 1}}, {18, {0.875, 1}}, {10, {1, 1}}}},
+  };
+  for (const Course& course : courses) {
+    ResolutionControl control(course.rate, course.spp);
+    for (const auto& [ms, sharpness] : course.chosenAfterMs) {
+      EXPECT_EQ(chosenAfter(ms, control), sharpness) << ms << " ms of " << course.spp;
+    }
+  }
 }
 
 // A sample costs 30 ms with sampled rays, of which plain ones take a tenth.
@@ -87,16 +105,6 @@ TEST(ResolutionControl, SampledRaysAreExpectedToCostMore) {
   };
   EXPECT_TRUE(first(8).plain);
   EXPECT_FALSE(first(2).plain);
-}
-
-TEST(ResolutionControl, DoesNotFlutter) {
-  ResolutionControl control(kDefaultRate, 1);
-  EXPECT_EQ(chosenAfter(15.5, control).scale, 1);
-  EXPECT_EQ(chosenAfter(20, control).scale, 0.875);
-  // The scale 0.9375 would take 15.8 ms. It would hold the rate, but so barely that the control
-  // does not return to it.
-  EXPECT_EQ(chosenAfter(18, control).scale, 0.875);
-  EXPECT_EQ(chosenAfter(10, control).scale, 1);
 }
 
 TEST(ResolutionControl, RatesStayWithinLimits) {

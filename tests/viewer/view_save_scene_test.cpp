@@ -17,7 +17,7 @@ class SavedScenes : public Viewer {
     Viewer::SetUp();
     writeSky(folder_ / "sky.exr");
   }
-  Json read(const std::string& file) { return Json::parse(Viewer::read(file)); }
+  Json read(const std::string& file) { return Json::parse(bytesOf(file)); }
   void expectThatItShows(const std::string& picture, const Words& commands) {
     for (const std::string& command : commands) Viewer::expectThatItShows(picture, command);
   }
@@ -50,7 +50,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
 TEST_F(SavedScenes, KeepTheirPath) {
   Json scene = read("tiny.json");
   scene["path"][0] = Json{{"time", 0}};
-  write("tiny.json", scene.dump());
+  save("tiny.json", scene.dump());
   play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
 
   LoadOptions options;
@@ -68,8 +68,8 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   fs::create_directories(folder_ / "sub/maps");
   writePng(folder_ / "sub/maps/t.png", DisplayImage{1, 1, {200, 90, 30, 255}}, {});
   fs::copy(folder_ / "sky.exr", folder_ / "sub/sky.exr");
-  write("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  write("sub/s.json", R"({"whit": 1, "parameters": {"fov": 40},
+  save("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  save("sub/s.json", R"({"whit": 1, "parameters": {"fov": 40},
     "cameras": {"c": {"eye": [0, 1, 4], "at": [0, 0.5, 0], "fov": "$fov"}},
     "sky": {"image": "sky.exr"}, "ambient": {"fromSky": 0.5},
     "textures": {"t": {"image": "maps/t.png"}}, "materials": {"m": {"diffuseMap": "t"}},
@@ -89,9 +89,9 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
 // The copied command states the eye in coordinates of the model's file; the saved scene brings the
 // model to the origin.
 TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
-  write("far.obj",
-        "v 4000000.1 500000 10\nv 4000001.1 500000 10\n"
-        "v 4000000.1 500001 10\nf 1 2 3\n");
+  save("far.obj",
+       "v 4000000.1 500000 10\nv 4000001.1 500000 10\n"
+       "v 4000000.1 500001 10\nf 1 2 3\n");
   const Words lines =
       commandsOf(2,
                  "drop far.obj\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
@@ -103,7 +103,7 @@ TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
 TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
-  write("tiny.json", scene.dump());
+  save("tiny.json", scene.dump());
 
   const Words lines =
       commandsOf(3,
@@ -128,7 +128,7 @@ TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
   scene["cameras"]["front"]["eye"] = {1, 3, 7};
-  write("other.json", scene.dump());
+  save("other.json", scene.dump());
 
   const Words lines = commandsOf(
       3,
@@ -157,9 +157,9 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
 
 TEST_F(SavedScenes, OfAModelHoldIt) {
   fs::create_directories(folder_ / "models");
-  write("models/m.mtl", "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n");
-  write("models/m.obj",
-        "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n");
+  save("models/m.mtl", "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n");
+  save("models/m.obj",
+       "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n");
 
   const Words lines = commandsOf(
       3,
@@ -210,7 +210,7 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
 }
 
 TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
-  write("bad.hdr", "#?RADIANCE\n\n-Y 1 +X 1000000\n");
+  save("bad.hdr", "#?RADIANCE\n\n-Y 1 +X 1000000\n");
   const Words lines = commandsOf(
       2,
       "errors show\nbare\nasked\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"

@@ -6,19 +6,18 @@
 #include <chrono>
 #include <thread>
 
-#include "cli/run_program.h"
-#include "has_text.h"
+#include "cli/run_command.h"
 #include "output/open_and_warn.h"
 
 namespace whit::view {
 namespace {
 
-class Sessions : public testing::Test {
+class Sessions : public cli::TinySceneTest {
  protected:
   Sessions() {
     options_.common.quiet = true;
     options_.common.render.threads = 2;
-    options_.scene = cli::writeTinyScene(folder_);
+    options_.scene = tiny_;
     begin(openAndWarn(options_.scene, options_.common, nullptr));
     settle();
   }
@@ -60,7 +59,6 @@ class Sessions : public testing::Test {
   }
   std::vector<std::string> settings() const { return state().shown.edited->settings; }
 
-  cli::TemporaryFolder folder_;
   ViewOptions options_;
   std::unique_ptr<Session> session_;
   const std::vector<std::string> none_, lamp_{"/lights/0/intensity=90"};
@@ -111,7 +109,7 @@ TEST_F(Sessions, EditsOutliveAReload) {
 // The scene is read again, and before its picture is fetched another scene is to be opened.
 TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
   const std::string other = folder_ / "other.json";
-  std::ofstream(other) << cli::readFile(options_.scene);
+  save("other.json", bytesOf("tiny.json"));
 
   session_->act("reload");
   session_->advance(0.01);
@@ -235,14 +233,6 @@ TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   EXPECT_EQ(state().error, "");
   EXPECT_EQ(state().timeline.animation, "run");
   EXPECT_EQ(state().timeline.seconds, 0);
-}
-
-// The views of a debug view have another command, because whit render does not make them.
-TEST_F(Sessions, TheCommandMakesWhatIsShown) {
-  EXPECT_TRUE(command().starts_with("whit render "));
-  act("view depth");
-  EXPECT_TRUE(command().starts_with("whit-view "));
-  EXPECT_TRUE(hasText(command(), " --view=depth"));
 }
 
 }  // namespace

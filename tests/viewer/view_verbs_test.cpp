@@ -4,12 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "cli/run_command.h"
 #include "core/option_table.h"
-#include "has_text.h"
 
 namespace whit::view {
 namespace {
@@ -21,11 +19,8 @@ TEST(Verbs, AreInTheReadme) {
     expected += "| " + std::string(verb.keys) + " | " + std::string(verb.help) + " |\n";
   }
 
-  const char* const source = std::getenv("WHIT_SOURCE_DIR");
-  std::stringstream page;
-  page << std::ifstream(std::string(source ? source : ".") + "/viewer/README.md").rdbuf();
-
-  EXPECT_TRUE(hasText(page.str(), expected + "\n")) << expected;
+  const std::string source = std::getenv("WHIT_SOURCE_DIR");
+  EXPECT_TRUE(hasText(cli::readFile(source + "/viewer/README.md"), expected + "\n"));
 }
 
 TEST(Verbs, HaveKeysOfTheirOwn) {

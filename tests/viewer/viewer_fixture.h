@@ -1,12 +1,7 @@
 // The viewer run by a script, and what it leaves behind.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <sstream>
-
-#include "io/image/image_file.h"
+#include "cli/run_command.h"
 #include "virtual_display.h"
 
 namespace whit::view {
@@ -15,32 +10,20 @@ namespace whit::view {
 // neither leaks nor their absence: then the viewer runs once more.
 inline constexpr int kAttempts = 4;
 
-class Viewer : public testing::Test {
+class Viewer : public cli::TinySceneTest {
  protected:
   void SetUp() override {
     if (display_.name().empty()) {
       GTEST_SKIP() << "Xvfb is not installed: the viewer's window is NOT tested (xvfb)";
     }
-    cli::writeTinyScene(folder_);
   }
 
-  using Words = std::vector<std::string>;
-
-  void write(const std::string& file, const std::string& text) {
-    std::ofstream(folder_ / file) << text;
-  }
-  std::string read(const std::string& file) { return cli::readFile(folder_ / file); }
-  bool exists(const std::string& file) { return std::filesystem::exists(folder_ / file); }
-  // Writes a scene that is the tiny one but for one text in it.
-  void writeChanged(const std::string& file, const std::string& text, const std::string& other) {
-    std::string scene = read("tiny.json");
-    write(file, scene.replace(scene.find(text), text.size(), other));
-  }
+  using Words = cli::Words;
 
   // Runs a script in a window of this size; without one it follows from the screen's.
   cli::Outcome run(const std::string& script, const char* size = "48x32",
                    const Words& options = {}) {
-    write("script.txt", script);
+    save("script.txt", script);
     Words words{WHIT_VIEW_SCRIPT_PROGRAM, "--quiet", "--script", "script.txt"};
     if (*size != 0) words.insert(words.end(), {"--size", size});
     words.insert(words.end(), scene_.begin(), scene_.end());
@@ -87,22 +70,28 @@ class Viewer : public testing::Test {
     expectSameCodes(picture, "again.png");
   }
 
-  RawImage codes(const std::string& file) {
-    Warnings warnings;
-    return readRawImage(folder_ / file, ImageLimits(), warnings);
-  }
   void expectSameCodes(const std::string& a, const std::string& b) {
-    const RawImage x = codes(a), y = codes(b);
+    const RawImage x = storedIn(a), y = storedIn(b);
     ASSERT_EQ(x.width, y.width);
     ASSERT_EQ(x.height, y.height);
     EXPECT_EQ(x.codes, y.codes);
   }
   void expectOtherCodes(const std::string& a, const std::string& b) {
-    EXPECT_NE(codes(a).codes, codes(b).codes) << a << " and " << b;
+    EXPECT_NE(storedIn(a).codes, storedIn(b).codes) << a << " and " << b;
+  }
+
+  // Returns whether a rectangle of both pictures is the same.
+  bool sameIn(const std::string& a, const std::string& b, const Crop& rectangle) {
+    const Image x = imageIn(a), y = imageIn(b);
+    for (int row = rectangle.y0; row < rectangle.y1; ++row) {
+      for (int column = rectangle.x0; column < rectangle.x1; ++column) {
+        if (x.at(column, row) != y.at(column, row)) return false;
+      }
+    }
+    return true;
   }
 
   VirtualDisplay display_;
-  cli::TemporaryFolder folder_;
   Words scene_{"tiny.json"};  // what the viewer is started with
 };
 
@@ -113,17 +102,6 @@ inline void writeSky(const std::string& file) {
     sky.pixels[i] = {0.2f * static_cast<float>(i), 1, i == 1 ? 5.0f : 0.5f};
   }
   writeExr(file, sky, {});
-}
-
-// Returns whether the bytes of a rectangle of both pictures are equal.
-inline bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1) {
-  const auto channels = static_cast<std::size_t>(a.channels);
-  for (int y = y0; y < y1; ++y) {
-    const std::size_t from = static_cast<std::size_t>(y * a.width + x0) * channels;
-    const std::size_t bytes = static_cast<std::size_t>(x1 - x0) * channels;
-    if (std::memcmp(&a.codes[from], &b.codes[from], bytes) != 0) return false;
-  }
-  return true;
 }
 
 }  // namespace whit::view
