@@ -17,6 +17,15 @@ long double decode(long double v) {
   return v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L);
 }
 
+TEST(Srgb, EveryCodeComesBack) {
+  for (int code = 0; code < 256; ++code) {
+    const double linear = srgbToLinear(code / 255.0);
+    EXPECT_EQ(srgbCode(linear), code);
+    EXPECT_EQ(srgbCode(double{static_cast<float>(linear)}), code)
+        << "as textures and images hold it";
+  }
+}
+
 // The code changes from k - 1 to k where 255 * srgb = k - 1/2. 1e-13 relative is far above the
 // rounding of pow in double and far below the distance of two floats.
 TEST(Srgb, CodesChangeAtTheTies) {

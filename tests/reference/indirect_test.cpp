@@ -249,6 +249,102 @@ TEST(FormFactors, OfTwoFacingDiscs) {
   }
 }
 
+// Howell, C-14: the factor of rectangles of height `tall` and depth `deep` that share an edge of
+// length `wide`.
+double factorOfPlates(double wide, double deep, double tall) {
+  const double h = tall / wide, w = deep / wide, h2 = h * h, w2 = w * w, both = h2 + w2;
+  const double logs = (1 + w2) * (1 + h2) / (1 + both) *
+                      std::pow(w2 * (1 + both) / ((1 + w2) * both), w2) *
+                      std::pow(h2 * (1 + both) / ((1 + h2) * both), h2);
+
+  return (w * std::atan(1 / w) + h * std::atan(1 / h) -
+          std::sqrt(both) * std::atan(1 / std::sqrt(both)) + 0.25 * std::log(logs)) /
+         (kPi * w);
+}
+
+TEST(FormFactors, OfPerpendicularPlates) {
+  for (const auto& [w, d, t] :
+       {std::array{1.0f, 1.0f, 1.0f}, {2.0f, 1.0f, 0.5f}, {1.0f, 0.4f, 3.0f}}) {
+    SceneBuilder builder;
+    builder.add(quad({0, 0, w}, {d, 0, w}, {d, 0, 0}, {0, 0, 0}, builder.add(diffuseMaterial(1))));
+    builder.add(quad({0, 0, 0}, {0, t, 0}, {0, t, w}, {0, 0, w}, builder.add(emittingMaterial(1))));
+    const Scene scene = builder.build();
+
+    Looking looking(scene, indirect(16, 1));
+    Numbers numbers(6);
+    const SampleMean mean = meanOf(2000, [&](auto path) {
+      const Vec3d at{numbers.in(0, d), 0, numbers.in(0, w)};
+      // The eye is just above the plate, so that the other plate does not hide it.
+      return looking.onto(at, 1e-4 * t, path);
+    });
+
+    EXPECT_NEAR(mean.value(), factorOfPlates(w, d, t), 3 * mean.error()) << w << ' ' << d;
+    EXPECT_LT(mean.error(), 0.02);
+  }
+}
+
+// Follows a ray from the axis, `height` below the center of a glass ball of radius 1, through the
+// ball. Returns where the ray crosses the plane `away` above the center, and the share of light
+// that passes both faces, by the plane geometry of rays through a sphere.
+struct ThroughBall {
+  double radius = 0, share = 0;
+};
+ThroughBall throughBall(double height, double sine, double ior, double away) {
+  const double incident = std::asin(height * sine), bent = std::asin(height * sine / ior);
+  const double ci = std::cos(incident), ct = std::cos(bent);
+  const double s = (ci - ior * ct) / (ci + ior * ct), p = (ior * ci - ct) / (ior * ci + ct);
+  const double passes = 1 - (s * s + p * p) / 2;
+
+  // Each face turns the ray by (incident - bent). Seen from the center, the ray enters at an angle
+  // of (incident - theta) to the way down, and the exit lies farther by the angle of the chord.
+  const double theta = std::asin(sine);
+  const double exit = incident - theta + kPi - 2 * bent, leaves = theta - 2 * (incident - bent);
+  return {std::sin(exit) + (away + std::cos(exit)) * std::tan(leaves), passes * passes};
+}
+
+// A lamp above a glass ball, and a small plate on the axis below, in the shadow of the ball.
+constexpr double kLampRadius = 0.3, kLampHeight = 4;
+
+Scene lampAndBall(double height) {
+  SceneBuilder builder;
+  builder.add(exactSphere(builder.add(glassMaterial(1.5f))));
+  builder.add(disc(kLampHeight, kLampRadius, builder.add(emittingMaterial(1))));
+  builder.add(floorAt(static_cast<float>(-height), 0.01f, builder.add(diffuseMaterial(1))));
+  return builder.build();
+}
+
+// Integrates the radiance in the middle of the plate over the square of the sine, up to the
+// silhouette of the ball.
+double throughBallFrom(double height) {
+  constexpr int kSteps = 200000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double sine2 = (i + 0.5) / (kSteps * height * height);
+    const ThroughBall ray = throughBall(height, std::sqrt(sine2), 1.5, kLampHeight);
+    if (std::fabs(ray.radius) < kLampRadius) sum += ray.share / (kSteps * height * height);
+  }
+  return sum;
+}
+
+TEST(Caustics, OfABallLensHaveTheEnergyThatPasses) {
+  for (const double height : {1.4, 2.0, 2.6}) {
+    const Scene scene = lampAndBall(height);
+    const double wanted = throughBallFrom(height), away = kLampHeight + height;
+    const double squared = kLampRadius * kLampRadius;
+    EXPECT_GT(wanted, 3 * squared / (squared + away * away)) << "brighter than without the ball";
+
+    // The path goes down to the plate, up into the ball and out of it. Light that is reflected
+    // inside needs more depth.
+    Looking looking(scene, indirect(64, 3));
+    const SampleMean mean = meanOf(1500, [&](auto path) {
+      return looking.onto({0, -height, 0}, 1e-3, path);
+    });
+
+    EXPECT_NEAR(mean.value(), wanted, 3 * mean.error()) << height;
+    EXPECT_LT(mean.error(), 0.03 * wanted) << height;
+  }
+}
+
 TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
   SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 1000);
   Material kept = diffuseMaterial(0.5f);

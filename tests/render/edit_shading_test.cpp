@@ -54,6 +54,9 @@ TEST(EditShading, EffectsComeAndGo) {
   expectAsIfRead("whitted", [](auto& materials, auto&) {
     for (Material& m : materials) m.mirror = m.mirrorGrazing = m.transmission = {0, 0, 0};
   });
+  expectAsIfRead("whitted", [](auto& materials, auto&) {  // mirrors stay
+    for (Material& m : materials) m.transmission = {0, 0, 0};
+  });
   expectAsIfRead("matte", [](auto&, auto& lights) {
     for (Light& light : lights) light.intensity = {0, 0, 0};
   });

@@ -93,17 +93,19 @@ TEST(MovingScene, MotionOfABallIsThatOfItsPoints) {
   EXPECT_GT(seen, 300);
 }
 
-// Of two squares in one plane the later one is seen wherever both move.
+// Of two squares in one plane the later one is seen wherever both move, each by its own motion.
 TEST(MovingScene, CoplanarSquaresMoveTogether) {
   SceneBuilder builder = movedBy([](double seconds) {
     return Affine::translation({0.5 * seconds, 0, 0});
   });
+  Rig& rig = builder.description.motion.rig;
+  rig.push_back(rig[0]);
   const Affine upright = Affine::rotation({1, 0, 0}, 90);
   for (const float half : {3.0f, 1.0f}) {
     const std::uint32_t material = builder.add(emittingMaterial(half < 2 ? 1 : 0.25f));
     builder.place({"square", {floorAt(0, half, material)}},
                   {Affine::translation(half < 2 ? Vec3d{0.3, -0.2, 0} : Vec3d()) * upright});
-    builder.description.instances.back().mover = 0;
+    builder.description.instances.back().mover = half < 2;
   }
 
   MovingPicture moving(builder.build(), squarePicture());

@@ -100,6 +100,7 @@ inline void expectBitsOfTheWhole(const Scene& scene, RenderOptions options, cons
   const Picture whole = render(scene, options);
   options.crop = crop;
   const Picture part = render(scene, options);
+  EXPECT_EQ(part.image.window, crop);
 
   forEachPixel(part.image, [&](int x, int y) {
     EXPECT_EQ(part.image.at(x, y), whole.image.at(x, y)) << x << "," << y;

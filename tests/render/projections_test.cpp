@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 
-#include "bake/sphere.h"
 #include "inspect/reference_frame.h"
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
@@ -152,14 +151,16 @@ double unitsInTheLastPlace(float value, double wanted) {
 
 // The eyes are within a sphere.
 TEST(Projected, DepthsAreTheClosedForm) {
-  const Affine sphere = Affine::translation({0.2, -0.1, 0.3}) * Affine::scaling(Vec3d(4));
+  const Vec3d center{0.2, -0.1, 0.3};
+  constexpr double kRadius = 4;
   Camera pose;
   pose.eye = {0, 0, 2};
   pose.at = {0, 0, 0};
   for (const auto& [name, camera] : projectedCameras(pose)) {
     SCOPED_TRACE(name);
     SceneBuilder builder;
-    builder.add(exactSphere(builder.add(emittingMaterial(1)), sphere));
+    builder.add(exactSphere(builder.add(emittingMaterial(1)),
+                            Affine::translation(center) * Affine::scaling(Vec3d(kRadius))));
     builder.description.cameras = {camera};
     RenderOptions o = smallOptions(kSmallSize);
     o.channels = parseChannels("depth,alpha");
@@ -184,7 +185,10 @@ TEST(Projected, DepthsAreTheClosedForm) {
           continue;
         }
 
-        const double along = meetSphere(sphere, ray.origin, ray.direction)->far;
+        // The far root of |way + along * direction| = radius.
+        const Vec3d way = ray.origin - center;
+        const double b = dot(way, ray.direction);
+        const double along = std::sqrt(b * b - dot(way, way) + kRadius * kRadius) - b;
         const double wanted[] = {along * dot(ray.direction, frame.forward), along};
         for (const int k : {0, 1}) {
           if (film == &reference) {

@@ -34,6 +34,10 @@ inline SceneDescription scaled(SceneDescription d, int k) {
   for (Camera& camera : d.cameras) {
     camera.eye = scaled(camera.eye, k);
     camera.at = scaled(camera.at, k);
+    for (float Camera::*length :
+         {&Camera::orthographicHeight, &Camera::aperture, &Camera::focus, &Camera::eyeDistance}) {
+      camera.*length = std::ldexp(camera.*length, k);
+    }
   }
 
   // Absorption is a rate per length.

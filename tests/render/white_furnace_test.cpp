@@ -151,7 +151,11 @@ std::string gltfMaterial(Numbers& numbers, Colors colors) {
 std::string whiteSceneMaterial(Numbers& numbers, Colors colors) {
   Members m(numbers, colors);
   m.add("diffuse", "1").color("specular").number("roughness").color("mirror");
-  if (numbers.in(0, 1) < 0.5) m.color("mirrorGrazing");
+  if (numbers.in(0, 1) < 0.5) {
+    m.add("mirrorGrazing", "1");
+  } else {
+    m.color("mirrorGrazing");
+  }
   return m.maybe("glossyReflection", "true").text();
 }
 std::string whiteGltfMaterial(Numbers& numbers, Colors colors) {

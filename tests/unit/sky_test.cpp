@@ -146,6 +146,21 @@ TEST(AmbientFromSky, ImageOfAGradientApproachesTheGradient) {
   EXPECT_NEAR(a.down.x, 1 - 2.0 / 3, 1e-4);
 }
 
+// GGX of roughness 1 is constant over the half vectors, which leaves the mean weighted by the
+// cosine, and ambient light has it in closed form. The sums' texels are 6 degrees wide, hence 0.01.
+TEST(BlurredSky, OfRoughnessOneIsTheCosineWeightedMean) {
+  const Sky sky = gradientSky();
+  const Ambient mean = ambientFromSky(sky, 1);
+  const EnvironmentImage blurred = blurredSky(sky);
+
+  const RgbD up = blurredRadiance(sky, blurred, {0, 1, 0}, 1);
+  const RgbD down = blurredRadiance(sky, blurred, {0, -1, 0}, 1);
+
+  EXPECT_NEAR(up.z, double{mean.up.z}, 0.01 * mean.up.z);
+  EXPECT_NEAR(up.x, double{mean.up.x}, 0.01 * mean.up.x);
+  EXPECT_NEAR(down.x, double{mean.down.x}, 0.01 * mean.down.x);
+}
+
 // Returns the mean of a cosine under a lobe around its axis, weighted by D(h) cos(theta) of GGX
 // with the half vector at theta / 2, in closed form: with c = cos(theta), D(h) is proportional to 1
 // / (a - b c)^2.

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "bake/facet.h"
 #include "verify/scene_builder.h"
 
 namespace whit {
@@ -118,6 +119,19 @@ TEST(ExactSphere, IsDroppedWhereItHasNoInside) {
   const Scene scene = Scene::finalize(builder.describe(), warnings);
   EXPECT_EQ(scene.instancedSpheres, 1u);
   EXPECT_EQ(warnings.entries().at("sphere too small, too flat or too far away dropped").count, 3u);
+}
+
+TEST(ExactSphere, EyesLieOnItAsFarAsFloatsCanTell) {
+  SceneBuilder builder;
+  builder.add(ballsOf({Affine::translation({10, 0, 0}) * Affine::scaling({2, 2, 4})},
+                      builder.add(blackMaterial())));
+  const Scene scene = builder.build();
+  for (const auto& [eye, isOnIt] : {std::pair{Vec3d{12, 0, 0}, true},
+                                    {Vec3d{10, 0, 4 + 1e-6}, true},
+                                    {Vec3d{10, 0, 4 + 1e-4}, false},
+                                    {Vec3d{10, 0, 0}, false}}) {
+    EXPECT_EQ(liesInSurface(scene, eye, 0, kNoInstance), isOnIt) << eye.x << ' ' << eye.z;
+  }
 }
 
 }  // namespace
