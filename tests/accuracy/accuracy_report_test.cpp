@@ -15,46 +15,10 @@
 namespace whit::accuracy {
 namespace {
 
-SceneSweep sweepOfThree() {
-  SceneSweep sweep;
-  sweep.scene = "a<b & \"c\" </script>";
-  sweep.width = 32;
-  sweep.height = 20;
-  sweep.referenceSamples = 64;
-  sweep.truthPng = "png";
-
-  struct Row {
-    PointKind kind;
-    const char *knob, *value;
-    double ms, flip;
-  };
-  for (const Row& row : {Row{PointKind::baseline, "", "standard", 10, 0.02},
-                         Row{PointKind::knob, "depth", "2", 8, 0.03},
-                         Row{PointKind::knob, "depth", "16", 12, 0.025}}) {
-    Point& point = sweep.points.emplace_back();
-    point.kind = row.kind;
-    point.knob = row.knob;
-    point.value = row.value;
-    point.timing.steadyMs = row.ms;
-    point.timing.frames = point.timing.rounds = 9;
-    point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = row.ms / 10;
-    point.total.flipMean = row.flip;
-    point.imagePng = point.totalMapPng = "png";
-  }
-
-  sweep.points[0].onFront = sweep.points[1].onFront = true;
-  sweep.points[0].sameSamples.emplace();
-  sweep.points[0].sameSamplesMapPng = "png";
-  sweep.points[0].arithmetic.emplace();
-  sweep.points[1].sameSamples.emplace().flipMean = 0.001;
-  sweep.idle = {{"fresnel", "nothing in the scene is transparent"}};
-  return sweep;
-}
-
 Json reportOf(const SceneSweep& sweep) { return reportJson({sweep}, Json::object()); }
 
 TEST(AccuracyReport, EmbedsItsDataUnchanged) {
-  const Json data = reportOf(sweepOfThree());
+  const Json data = reportOf(madeUpSweep());
   const std::string page = reportPage(data);
   EXPECT_EQ(embeddedData(page), data);
   EXPECT_FALSE(hasText(page, "{{"));
@@ -74,9 +38,9 @@ std::string fieldOf(const Json& value) {
 // The points of the report are the rows of the CSV file, with more digits.
 TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
   const Json facts{{"cpu", "A <fast> processor"}, {"seed", 1}};
-  SceneSweep sweep = sweepOfThree();
+  SceneSweep sweep = madeUpSweep();
   sweep.points[1].total.rmse = 1.0 / 3;
-  sweep.points[2].total.psnrDb = HUGE_VAL;
+  sweep.points[2].sameSamples.emplace().flipMean = 0.001;
 
   const Json points = reportJson({sweep}, facts)["scenes"][0]["points"];
   const std::vector<CsvRow> rows = parseCsv(sweepCsv({sweep}, facts), "sweep.csv");
@@ -97,14 +61,14 @@ TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
 
 TEST(AccuracyReport, LoadsNothingFromAnywhere) {
   // The name space of SVG is a name, not a place.
-  const std::string page = std::regex_replace(reportPage(reportOf(sweepOfThree())),
+  const std::string page = std::regex_replace(reportPage(reportOf(madeUpSweep())),
                                               std::regex("http://www.w3.org/2000/svg"), "");
   for (const char* loads : {"http", "@import", "url(", "fetch(", " src=\"", "<link"})
     EXPECT_FALSE(hasText(page, loads));
 }
 
 TEST(AccuracyReport, SaysWhatWasMeasured) {
-  const Json scene = reportOf(sweepOfThree())["scenes"][0];
+  const Json scene = reportOf(madeUpSweep())["scenes"][0];
   EXPECT_TRUE(hasText(scene["reference"].get<std::string>(), "64 samples a pixel"));
   EXPECT_EQ(scene["not_swept"][0]["because"], "nothing in the scene is transparent");
   EXPECT_EQ(scene["points"][1]["label"], "depth=2");
@@ -126,13 +90,13 @@ TEST(AccuracyReport, Base64) {
 
 // A report against all transport says how far off that truth is itself.
 TEST(AccuracyReport, SaysHowFarOffTheTruthIs) {
-  SceneSweep sweep = sweepOfThree();
+  SceneSweep sweep = madeUpSweep();
   EXPECT_EQ(transportText(sweep), "");
   EXPECT_FALSE(reportOf(sweep)["scenes"][0].contains("transport"));
 
-  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
+  sweep.transport = kTransport;
   for (Point& point : sweep.points) point.transport.emplace().flipMean = 0.0777;
-  sweep.points[0].arithmetic->samePath.rmse = 1e-7;
+  sweep.points[0].arithmetic.emplace().samePath.rmse = 1e-7;
 
   const std::string text = transportText(sweep);
   for (const char* said :

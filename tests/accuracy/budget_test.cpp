@@ -8,12 +8,12 @@
 #include <limits>
 #include <random>
 
-#include "core/error.h"
 #include "core/option_table.h"
 #include "has_text.h"
 #include "inspect/knobs.h"
 #include "inspect/metrics.h"
 #include "io/load_scene.h"
+#include "unit/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -28,6 +28,14 @@ Image rendered(const Scene& scene, const RenderOptions& options) {
   Film film = makeFilm(scene, options);
   renderer.render(chooseCamera(scene, options), film);
   return film.image;
+}
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+// The options with these values.
+RenderOptions with(const Values& values, RenderOptions options = {}) {
+  for (const auto& [name, value] : values) setOption(options, name, value);
+  return options;
 }
 
 struct Chosen {
@@ -51,22 +59,6 @@ Chosen chooseFor(const Scene& scene, const Budget& budget, const std::set<std::s
   return chosen;
 }
 
-RenderOptions withSamples(int spp) {
-  RenderOptions options;
-  options.spp = spp;
-  return options;
-}
-
-std::string errorOf(const std::string& time, const std::string& target) {
-  try {
-    parseBudget(time, target);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::usage);
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Budgets, AreRead) {
   for (const auto& [text, ms] : {std::pair{"50ms", 50}, {"1.5s", 1500}, {"2min", 120000}}) {
     EXPECT_EQ(parseBudget(text, "").ms, ms);
@@ -79,11 +71,15 @@ TEST(Budgets, AreRead) {
 }
 
 TEST(Budgets, OfOtherWordsAreRefused) {
-  for (const char* const time : {"50", "ms", "-1s", "0ms", "1h", "nans", "1e99s"}) {
-    EXPECT_TRUE(hasText(errorOf(time, ""), "--budget: expected a time of at least 1 ms")) << time;
+  const auto expectRefused = [](const char* time, const char* target, const char* said) {
+    SCOPED_TRACE(std::string(time) + target);
+    test::expectError(ExitStatus::usage, {said}, [&] { parseBudget(time, target); });
+  };
+  for (const char* time : {"50", "ms", "-1s", "0ms", "1h", "nans", "1e99s"}) {
+    expectRefused(time, "", "--budget: expected a time of at least 1 ms");
   }
-  for (const char* const target : {"0.5", "flip", "flip=0", "flip=2", "-1codes", "codes"}) {
-    EXPECT_TRUE(hasText(errorOf("", target), "--target: expected an error above 0")) << target;
+  for (const char* target : {"0.5", "flip", "flip=0", "flip=2", "-1codes", "codes"}) {
+    expectRefused("", target, "--target: expected an error above 0");
   }
 }
 
@@ -95,38 +91,30 @@ TEST(BestWithin, IsTheLeastErrorThatFits) {
   EXPECT_EQ(bestWithin(points, 0.5), std::nullopt);
 }
 
+// The options that the receipt names are all that is needed for the same picture. A scene that
+// states samples of its own has them named even where the choice takes none.
 TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
-  const Scene scene = load("whitted");
-  const Chosen chosen = chooseFor(scene, {.ms = 200});
-  // The options that the receipt names are all that is needed for the same picture.
-  RenderOptions same;
-  same.size = ImageSize{64, 48};
-  for (const auto& [name, value] : chosen.receipt.chosen) setOption(same, name, value);
+  for (const auto& [name, ms] :
+       {std::pair{"whitted", 200.0}, {"cornell", 1.0}, {"cornell", 300.0}}) {
+    SCOPED_TRACE(name);
+    const Scene scene = load(name);
+    RenderOptions same;
+    applySceneOptions(scene.options, {}, same);
+    const auto [receipt, image] = chooseFor(scene, {.ms = ms}, {}, same);
 
-  EXPECT_EQ(rendered(scene, same).pixels, chosen.image.pixels);
-  EXPECT_LE(chosen.receipt.low, chosen.receipt.error);
-  EXPECT_GE(chosen.receipt.high, chosen.receipt.error);
-}
-
-// The scene states samples of its own, which the choice has to name even where it takes none.
-TEST(Budgets, NameWhatTheSceneStatesOtherwise) {
-  const Scene scene = load("cornell");
-  RenderOptions stated;
-  applySceneOptions(scene.options, {}, stated);
-  for (const double ms : {1.0, 300.0}) {
-    const Receipt receipt = chooseFor(scene, {.ms = ms}, {}, stated).receipt;
-    RenderOptions same = stated;
-    for (const auto& [name, value] : receipt.chosen) setOption(same, name, value);
+    same = with(receipt.chosen, same);
     same.size = receipt.options.size;
     same.threads = receipt.options.threads;
     EXPECT_EQ(same, receipt.options);
+    EXPECT_EQ(rendered(scene, same).pixels, image.pixels);
+    EXPECT_LE(receipt.low, receipt.error);
+    EXPECT_GE(receipt.high, receipt.error);
   }
 }
 
 TEST(Budgets, KeepWhatIsGiven) {
   const Scene scene = load("mirrors");
-  RenderOptions options = withSamples(3);
-  options.depth = 5;
+  const RenderOptions options = with({{"spp", "3"}, {"depth", "5"}});
   const Receipt receipt = chooseFor(scene, {.ms = 100}, {"spp", "depth", "size"}, options).receipt;
   EXPECT_EQ(receipt.options.spp, 3);
   EXPECT_EQ(receipt.options.depth, 5);
@@ -150,7 +138,7 @@ TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
 
   for (double ms = 1; ms <= 64; ms *= 1.5) {
     const Receipt receipt = chooseFor(scene, {.ms = ms}).receipt;
-    if (receipt.note.find("too small") == std::string::npos) continue;
+    if (!hasText(receipt.note, "too small")) continue;
     EXPECT_EQ(receipt.options.lightSamples, 1) << ms << " ms";
   }
 }
@@ -160,17 +148,14 @@ TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
 // much light at their ends only if the given depth is small.
 TEST(Budgets, TellTheErrorOfThePicture) {
   const Scene scene = load("cornell");
-  RenderOptions options = withSamples(16);
-  options.ambientSamples = 1;
+  RenderOptions options = with({{"spp", "16"}, {"ambient-samples", "1"}});
   const std::set<std::string> fixed{"spp", "depth", "ambient-samples"};
   const Chosen chosen = chooseFor(scene, {.ms = 300}, fixed, options);
 
   // A picture of many samples with exact options stands for the truth.
   RenderOptions many = chosen.receipt.options;
   many.spp = 1024;
-  for (const Receipt::Knob& knob : chosen.receipt.approximate) {
-    setOption(many, knob.name, knob.exact);
-  }
+  for (const auto& knob : chosen.receipt.approximate) setOption(many, knob.name, knob.exact);
   const double flip =
       compareImages(chosen.image, rendered(scene, many), 0, many.toneCurve).flipMean;
   EXPECT_GE(flip, chosen.receipt.low);
@@ -187,14 +172,6 @@ TEST(Budgets, TellTheErrorOfThePicture) {
 // Each pixel of the view of chooseFor() has a shining square that covers this share of it,
 // somewhere in the pixel, before a sky of the radiance `behind`.
 Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
-  SceneDescription d;
-  d.name = "lattice";
-  d.materials.resize(1);
-  d.materials[0].diffuse = Rgb(0.0f);
-  d.materials[0].emission = radiance;
-  d.sky.kind = Sky::Kind::color;
-  d.sky.zenith = behind;
-
   Mesh squares;
   squares.materials = {0};
 
@@ -206,23 +183,25 @@ Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
       // The square lies anywhere within its pixel.
       const double left = x - 32 + place(random), low = y - 24 + place(random);
       const auto first = static_cast<std::uint32_t>(squares.positions.size());
-      for (const auto& [right, up] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
-        squares.positions.emplace_back(Vec3d{left + right * side, low + up * side, 0});
+      for (const Vec3f& corner : test::square().positions) {
+        squares.positions.emplace_back(Vec3d{left + corner.x * side, low + corner.y * side, 0});
       }
       squares.triangles.push_back({first, first + 1, first + 2});
       squares.triangles.push_back({first, first + 2, first + 3});
     }
   }
 
-  d.objects.push_back({"squares", {squares}});
-  d.instances.push_back({0, Affine{}});
+  SceneDescription d = test::sceneOf(squares);
+  d.materials[0].diffuse = Rgb(0.0f);
+  d.materials[0].emission = radiance;
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = behind;
 
   d.cameras.resize(1);
   d.cameras[0].eye = {0, 0, 10};
   d.cameras[0].at = {0, 0, 0};
   d.cameras[0].orthographicHeight = 48;
-  Warnings warnings;
-  return Scene::finalize(std::move(d), warnings);
+  return test::finalized(std::move(d));
 }
 
 // The root mean square of codes by which an image differs from one color.
@@ -235,8 +214,8 @@ double codesFrom(const Rgb& color, const Image& image) {
 // Red and green squares of equal brightness: the mean of red, green and blue has no noise.
 TEST(Targets, CountTheNoiseOfEachColor) {
   const Rgb red{0.8f, 0.05f, 0.05f}, green{0.05f, 0.8f, 0.05f};
-  const Chosen chosen =
-      chooseFor(lattice(0.5, red, green), {.error = 1, .inCodes = true}, {"spp"}, withSamples(16));
+  const Chosen chosen = chooseFor(lattice(0.5, red, green), {.error = 1, .inCodes = true}, {"spp"},
+                                  with({{"spp", "16"}}));
 
   const double error = codesFrom((red + green) / 2.0f, chosen.image);
   EXPECT_GT(error, 1);
@@ -249,28 +228,25 @@ TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   constexpr double kGray = 0.2;
   for (const double share : {0.5, 1.0 / 256}) {
     const Chosen chosen = chooseFor(lattice(share, Rgb(static_cast<float>(kGray / share))),
-                                    {.error = 1, .inCodes = true}, {"spp"}, withSamples(16));
+                                    {.error = 1, .inCodes = true}, {"spp"}, with({{"spp", "16"}}));
     const double error = codesFrom(Rgb(static_cast<float>(kGray)), chosen.image);
 
     const Receipt& receipt = chosen.receipt;
     EXPECT_EQ(std::isinf(receipt.high), share < 0.1) << receiptText(receipt, "");
     EXPECT_LE(error, receipt.high);
 
-    const bool says = receipt.note.find("the error is not known") != std::string::npos;
-    EXPECT_EQ(says, share < 0.1) << receipt.note;
+    EXPECT_EQ(hasText(receipt.note, "the error is not known"), share < 0.1) << receipt.note;
   }
 }
 
 // A single sample of random paths says nothing about its error.
 TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
-  RenderOptions options;
-  options.indirect = 1;
-  const Receipt paths = chooseFor(load("cornell"), {.ms = 100}, {"spp"}, options).receipt;
+  const Receipt paths =
+      chooseFor(load("cornell"), {.ms = 100}, {"spp"}, with({{"indirect", "1"}})).receipt;
   EXPECT_TRUE(std::isinf(paths.high));
   EXPECT_TRUE(hasText(receiptText(paths, ""), "not known"));
 
-  options.indirect = 0;
-  const Receipt direct = chooseFor(load("matte"), {.ms = 100}, {"spp"}, options).receipt;
+  const Receipt direct = chooseFor(load("matte"), {.ms = 100}, {"spp"}).receipt;
   EXPECT_FALSE(std::isinf(direct.high));
 }
 
@@ -278,11 +254,8 @@ TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
 // are black.
 TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
   const Scene scene = load("cornell");
-  RenderOptions options = withSamples(400);
-  options.size = ImageSize{32, 32};
-  options.indirect = 1;
-  options.channels = ChannelSet().with(Channel::error);
-
+  const RenderOptions options =
+      with({{"size", "32x32"}, {"spp", "400"}, {"indirect", "1"}, {"channels", "error"}});
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
@@ -299,28 +272,22 @@ TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
 }
 
 TEST(Budgets, AreKeptByTheSmallestPictures) {
-  RenderOptions options;
-  options.crop = Crop{3, 3, 5, 4};
-  EXPECT_EQ(chooseFor(load("cornell"), {.ms = 50}, {}, options).image.pixels.size(), 2u);
+  const Chosen chosen = chooseFor(load("cornell"), {.ms = 50}, {}, with({{"crop", "3,3,5,4"}}));
+  EXPECT_EQ(chosen.image.pixels.size(), 2u);
 }
 
 TEST(Budgets, SayNothingOfTheEndsOfPathsWithAdaptiveSampling) {
-  RenderOptions options;
-  options.adaptive = true;
-  const Receipt receipt = chooseFor(load("whitted"), {.ms = 100}, {"adaptive"}, options).receipt;
+  const Receipt receipt =
+      chooseFor(load("whitted"), {.ms = 100}, {"adaptive"}, with({{"adaptive", "on"}})).receipt;
   EXPECT_FALSE(receipt.ended);
   EXPECT_FALSE(hasText(receiptText(receipt, ""), "left out at most"));
 }
 
 // Every pixel has a single color, so that one sample is as good as many.
 TEST(Budgets, ThatBuyNothingEndEarly) {
-  SceneDescription d;
-  d.name = "plain";
-  d.cameras.resize(1);
-  Warnings warnings;
-  const Scene scene = Scene::finalize(std::move(d), warnings);
-
-  const Receipt receipt = chooseFor(scene, {.ms = 2000}).receipt;
+  SceneDescription plain;
+  plain.cameras.resize(1);
+  const Receipt receipt = chooseFor(test::finalized(plain), {.ms = 2000}).receipt;
   EXPECT_EQ(receipt.options.spp, 1);
   EXPECT_TRUE(hasText(receipt.note, "done early"));
 }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
+#include "core/option_table.h"
 #include "output/digest.h"
 
 namespace whit::accuracy {
@@ -12,6 +14,13 @@ namespace {
 const EffectSet kMirrored =
     EffectSet().with(Effect::lights).with(Effect::shadows).with(Effect::mirror);
 
+// The options with these values.
+RenderOptions with(const std::map<std::string, std::string>& values) {
+  RenderOptions options;
+  for (const auto& [name, value] : values) setOption(options, name, value);
+  return options;
+}
+
 const Point* find(const PointList& list, const std::string& label) {
   for (const Point& point : list.points) {
     if (point.label() == label) return &point;
@@ -19,13 +28,22 @@ const Point* find(const PointList& list, const std::string& label) {
   return nullptr;
 }
 
+// No two points have the same options or the same label.
+void expectDistinct(const PointList& list) {
+  std::set<std::string> digests, labels;
+  for (const Point& point : list.points) {
+    digests.insert(digestOf(point.options));
+    labels.insert(point.label());
+  }
+  EXPECT_EQ(digests.size(), list.points.size());
+  EXPECT_EQ(labels.size(), list.points.size());
+}
+
 TEST(Points, TheBaselineComesFirstAndNothingTwice) {
   const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs());
   EXPECT_EQ(list.points.front().kind, PointKind::baseline);
   EXPECT_EQ(list.points.front().label(), "standard");
-  std::set<std::string> digests;
-  for (const Point& point : list.points) digests.insert(digestOf(point.options));
-  EXPECT_EQ(digests.size(), list.points.size());
+  expectDistinct(list);
 }
 
 TEST(Points, OneKnobAtATime) {
@@ -33,9 +51,7 @@ TEST(Points, OneKnobAtATime) {
   const Point* depth = find(list, "depth=2");
   ASSERT_TRUE(depth);
 
-  RenderOptions expected;
-  expected.depth = 2;
-  EXPECT_EQ(digestOf(depth->options), digestOf(expected));
+  EXPECT_EQ(digestOf(depth->options), digestOf(with({{"depth", "2"}})));
   EXPECT_EQ(depth->cause, Cause::algorithm);
   EXPECT_FALSE(find(list, "depth=64")) << "the default is the baseline";
   EXPECT_TRUE(find(list, "good"));
@@ -50,52 +66,46 @@ TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {
 }
 
 TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {
-  RenderOptions base;
-  base.spp = 4;
-  const PointList list = makePoints(base, kMirrored, chooseKnobs({"depth"}));
+  const PointList list = makePoints(with({{"spp", "4"}}), kMirrored, chooseKnobs({"depth"}));
   EXPECT_EQ(list.points.front().label(), "baseline");
-  ASSERT_TRUE(find(list, "depth=2"));
-  EXPECT_EQ(find(list, "depth=2")->options.spp, 4);
+  const Point* depth = find(list, "depth=2");
+  ASSERT_TRUE(depth);
+  EXPECT_EQ(depth->options.spp, 4);
   EXPECT_TRUE(find(list, "standard")) << "now a preset among others";
 }
 
 const EffectSet kSoftAndRough =
     kMirrored.with(Effect::indirect).with(Effect::glossyReflection).with(Effect::softShadows);
 
+// Adds the points towards all transport to a list.
+PointList transportPoints(EffectSet effects, PointList list = {}) {
+  addTransportPoints(RenderOptions(), effects, knobsTowardsTransport(), list);
+  return list;
+}
+
 // The points lead from one sample to all transport. Each number of indirect samples comes alone,
 // with more samples of a pixel, and with as many samples of lobes and lights as their knobs allow.
 TEST(TransportPoints, LeadToAllTransport) {
-  PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
-  addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
+  const PointList list = transportPoints(
+      kSoftAndRough, makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport()));
   for (const char* label :
        {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64", "spp=16 indirect=16",
-        "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
-        "spp=16 indirect=64 glossy=16 light-samples=16"}) {
+        "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4"}) {
     EXPECT_TRUE(find(list, label)) << label;
   }
 
   const Point* rough = find(list, "spp=16 indirect=64 glossy=16 light-samples=16");
   ASSERT_TRUE(rough);
-  EXPECT_EQ(rough->options.spp, 16);
-  EXPECT_EQ(rough->options.indirect, 64);
-  EXPECT_EQ(rough->options.glossy, 16);
-  EXPECT_EQ(rough->options.lightSamples, 16);
+  EXPECT_EQ(digestOf(rough->options),
+            digestOf(with(
+                {{"spp", "16"}, {"glossy", "16"}, {"indirect", "64"}, {"light-samples", "16"}})));
   EXPECT_EQ(rough->kind, PointKind::joint);
-
-  // No two points have the same options or the same label.
-  std::set<std::string> digests, labels;
-  for (const Point& point : list.points) {
-    digests.insert(digestOf(point.options));
-    labels.insert(point.label());
-  }
-  EXPECT_EQ(digests.size(), list.points.size());
-  EXPECT_EQ(labels.size(), list.points.size());
+  expectDistinct(list);
 }
 
 TEST(TransportPoints, HaveNoLobesWhereTheSceneHasNone) {
   const EffectSet effects = kMirrored.with(Effect::indirect);
-  PointList list;
-  addTransportPoints(RenderOptions(), effects, knobsTowardsTransport(), list);
+  const PointList list = transportPoints(effects);
 
   EXPECT_EQ(list.points.size(), 8u) << "1, 4, 16 and 64, with 1 and 16 samples";
   for (const Point& point : list.points) {
@@ -105,9 +115,7 @@ TEST(TransportPoints, HaveNoLobesWhereTheSceneHasNone) {
 }
 
 TEST(TransportPoints, AreNoneWhereNothingIsLeftOut) {
-  PointList list;
-  addTransportPoints(RenderOptions(), kMirrored, knobsTowardsTransport(), list);
-  EXPECT_TRUE(list.points.empty());
+  EXPECT_TRUE(transportPoints(kMirrored).points.empty());
 }
 
 }  // namespace

@@ -32,19 +32,26 @@ std::string digestAfter(const std::function<void(SceneDescription&)>& change) {
   return digestOf(test::finalized(std::move(d)));
 }
 
-TEST(SceneDigest, IsTheSameForTheSameScene) {
-  EXPECT_EQ(digestAfter([](auto&) {}), digestAfter([](auto&) {}));
-  EXPECT_EQ(digestAfter([](auto&) {}).size(), 32u);
+// Expects that of the two ranks that are added to the scene, the order matters and not the values.
+void expectOnlyTheOrderMatters(
+    const std::function<void(SceneDescription&, std::uint64_t, std::uint64_t)>& addRanked) {
+  const auto withRanks = [&](std::uint64_t first, std::uint64_t second) {
+    return digestAfter([&](SceneDescription& d) { addRanked(d, first, second); });
+  };
+  EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
+  EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
 }
 
 TEST(SceneDigest, NamesDoNotMatter) {
-  EXPECT_EQ(digestAfter([](auto&) {}), digestAfter([](SceneDescription& d) {
+  const std::string before = digestAfter([](auto&) {});
+  EXPECT_EQ(before.size(), 32u);
+  EXPECT_EQ(before, digestAfter([](SceneDescription& d) {
               d.name = d.materials[0].name = d.lights[0].name = "other";
             }));
 }
 
 TEST(SceneDigest, EveryTableMatters) {
-  const std::vector<std::function<void(SceneDescription&)>> changes{
+  void (*const changes[])(SceneDescription&) = {
       [](auto& d) { d.objects[0].meshes[0].positions[2].x = 1.0000001f; },
       [](auto& d) {
         d.objects[0].meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -67,40 +74,34 @@ TEST(SceneDigest, EveryTableMatters) {
   };
 
   const std::string before = digestAfter([](auto&) {});
-  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_NE(digestAfter(changes[i]), before) << i;
+  for (std::size_t i = 0; i < std::size(changes); ++i) {
+    EXPECT_NE(digestAfter(changes[i]), before) << i;
+  }
 }
 
 // Which of two faces in one place comes first is in no other table.
 TEST(SceneDigest, TheOrderOfCoplanarFacesMatters) {
-  const auto withRanks = [](std::uint64_t first, std::uint64_t second) {
-    return digestAfter([&](SceneDescription& d) {
-      d.objects[0].meshes.push_back(d.objects[0].meshes[0]);
-      for (Vec3f& p : d.objects[0].meshes[1].positions) p.x += 0.25f;
-      d.objects[0].meshes[0].rank = first;
-      d.objects[0].meshes[1].rank = second;
-    });
-  };
-  EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
-  EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
+  expectOnlyTheOrderMatters([](SceneDescription& d, auto first, auto second) {
+    std::vector<Mesh>& meshes = d.objects[0].meshes;
+    meshes.push_back(meshes[0]);
+    for (Vec3f& p : meshes[1].positions) p.x += 0.25f;
+    meshes[0].rank = first;
+    meshes[1].rank = second;
+  });
 }
 
 // One object is used twice and has a geometry of its own, whatever its place in the order.
 TEST(SceneDigest, TheOrderOfCoincidentSpheresMatters) {
-  const auto withRanks = [](std::uint64_t first, std::uint64_t second) {
-    return digestAfter([&](SceneDescription& d) {
-      Mesh ball;
-      ball.spheres = {Affine()};
-      ball.materials = {0};
-      d.objects.push_back({"twice", {ball}});
-      d.objects.push_back({"once", {ball}});
-      d.instances.push_back({1, Affine(), first});
-      d.instances.push_back({1, Affine::translation({9, 0, 0}), first});
-      d.instances.push_back({2, Affine(), second});
-    });
-  };
-
-  EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
-  EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
+  expectOnlyTheOrderMatters([](SceneDescription& d, auto first, auto second) {
+    Mesh ball;
+    ball.spheres = {Affine()};
+    ball.materials = {0};
+    d.objects.push_back({"twice", {ball}});
+    d.objects.push_back({"once", {ball}});
+    d.instances.push_back({1, Affine(), first});
+    d.instances.push_back({1, Affine::translation({9, 0, 0}), first});
+    d.instances.push_back({2, Affine(), second});
+  });
 }
 
 TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
@@ -130,46 +131,38 @@ TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
 
 class Cache : public ::testing::Test {
  protected:
-  Cache() : scene_(test::finalized(room())), camera_(scene_.cameras[0]) {
-    options_.size = ImageSize{8, 6};
-    options_.threads = 1;
+  static RenderOptions small(RenderOptions options) {
+    options.size = ImageSize{8, 6};
+    options.threads = 1;
+    return options;
   }
 
-  Scene scene_;
-  Camera camera_;
-  RenderOptions options_;
+  const Scene scene_ = test::finalized(room());
+  const Camera camera_ = scene_.cameras[0];
 };
 
 TEST_F(Cache, RendersEachPictureOnce) {
   ReferenceCache cache(scene_, camera_);
-  RenderOptions options = referenceOptions(options_, 2, 0);
+  const RenderOptions options = small(referenceOptions(RenderOptions(), 2, 0));
   const ReferencePicture& first = cache.get(options, nullptr);
   EXPECT_GT(maxComponent(first.image.at(4, 3)), 0.0f);
   EXPECT_GT(first.rays, 2 * 8 * 6);
-  options.threads = 2;
-  EXPECT_EQ(&cache.get(options, nullptr), &first) << "threads do not matter";
-  options.spp = 1;
-  const ReferencePicture& other = cache.get(options, nullptr);
-  EXPECT_LT(other.rays, first.rays);
-  EXPECT_EQ(&cache.get(referenceOptions(options_, 2, 0), nullptr), &first) << "still there";
+
+  RenderOptions others = options;
+  others.threads = 2;
+  EXPECT_EQ(&cache.get(others, nullptr), &first) << "threads do not matter";
+  others.spp = 1;
+  EXPECT_LT(cache.get(others, nullptr).rays, first.rays);
+  EXPECT_EQ(&cache.get(options, nullptr), &first) << "still there";
 }
 
-// By packets, of several seeds.
-class TransportCache : public Cache {
- protected:
-  TransportCache() {
-    options_ = transportOptions(RenderOptions(), 2);
-    options_.size = ImageSize{8, 6};
-    options_.threads = 1;
-  }
-};
+// The mean of frames by packets, of seeds 0 to 7, and no other picture.
+TEST_F(Cache, TransportIsTheMeanOfItsPasses) {
+  const RenderOptions options = small(transportOptions(RenderOptions(), 2));
+  const TransportPicture picture = renderTransport(scene_, camera_, options, nullptr);
 
-// The mean of frames of seeds 0 to 7, and no other picture.
-TEST_F(TransportCache, IsTheMeanOfItsPasses) {
-  const TransportPicture picture = renderTransport(scene_, camera_, options_, nullptr);
-  Renderer renderer(scene_, options_);
-
-  Film film = makeFilm(scene_, options_);
+  Renderer renderer(scene_, options);
+  Film film = makeFilm(scene_, options);
   PassMean passes;
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     renderer.setSeed(seed);

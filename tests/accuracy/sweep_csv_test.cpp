@@ -1,47 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.h"
 #include "accuracy/sweep_rows.h"
-#include "core/error.h"
 #include "has_text.h"
 #include "output/report_page.h"
+#include "unit/scene_builder.h"
 
 namespace whit::accuracy {
 namespace {
 
 Json facts() { return {{"cpu", "A \"fast\", big one"}, {"compiler", "g++"}}; }
-
-// Two points of 10x10 pixels with errors that are easy to recognize.
-SceneSweep sweepOfTwo() {
-  SceneSweep sweep;
-  sweep.scene = "room";
-  sweep.width = sweep.height = 10;
-  sweep.referenceSamples = 64;
-  sweep.points.resize(2);
-
-  Point& base = sweep.points[0];
-  base.kind = PointKind::baseline;
-  base.value = "standard";
-  base.total.rmse = 0.25;
-  base.total.flipMean = 0.02;
-  base.total.psnrDb = std::numeric_limits<double>::infinity();
-  base.sameSamples = ImageDifference();
-
-  Point& depth = sweep.points[1];
-  depth.knob = "depth";
-  depth.value = "2";
-  depth.cause = Cause::algorithm;
-  depth.options.depth = 2;
-  depth.total.rmse = 0.5;
-  depth.total.pixelsGe1CodePct = 30;
-  depth.arithmetic = ArithmeticError();
-  depth.arithmetic->divergences = 3;
-  return sweep;
-}
 
 std::vector<CsvRow> rowsOf(const SceneSweep& sweep) {
   return parseCsv(sweepCsv({sweep}, facts()), "sweep.csv");
@@ -52,9 +23,9 @@ void expectFields(const CsvRow& row, const CsvRow& expected) {
 }
 
 TEST(SweepCsv, WhatIsWrittenIsRead) {
-  const std::vector<CsvRow> rows = rowsOf(sweepOfTwo());
-  ASSERT_EQ(rows.size(), 2u);
-  expectFields(rows[0], {{"scene", "room"},
+  const std::vector<CsvRow> rows = rowsOf(madeUpSweep());
+  ASSERT_EQ(rows.size(), 3u);
+  expectFields(rows[0], {{"scene", "a<b & \"c\" </script>"},
                          {"kind", "baseline"},
                          {"total_rmse", "0.25"},
                          {"total_psnr_db", "inf"},
@@ -68,19 +39,11 @@ TEST(SweepCsv, WhatIsWrittenIsRead) {
 }
 
 TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
-  try {
-    parseCsv("a,b\n1,2\n3\n", "old.csv");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::badScene);
-    EXPECT_TRUE(hasText(std::string(error.what()), "old.csv:3"));
-  }
+  test::expectError(ExitStatus::badScene, {"old.csv:3"},
+                    [] { parseCsv("a,b\n1,2\n3\n", "old.csv"); });
 }
 
-// The truth of a sweep against all transport.
-const TransportFacts kTransport{8, 512, 0.002, 0.5, 0.0123, 4000};
-
-// A change of sweepOfTwo(), and how many errors have then grown.
+// A change of madeUpSweep(), and how many errors have then grown.
 struct Change {
   const char* what;
   void (*change)(SceneSweep&);
@@ -101,15 +64,16 @@ TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
       {"a pixel", [](SceneSweep& now) { now.points[0].total.nonFinite = 1; }, 1},
       {"NaN", [](SceneSweep& now) { now.points[0].total.rmse = std::nan(""); }, 1},
       {"a point less", [](SceneSweep& now) { now.points.pop_back(); }, 1},
-      // What was measured otherwise cannot be compared: none of the two points is found again.
-      {"another truth", [](SceneSweep& now) { now.transport = kTransport; }, 2},
-      {"another reference", [](SceneSweep& now) { now.referenceSamples = 16; }, 2},
-      {"another scene", [](SceneSweep& now) { now.scene = "other"; }, 2},
+      // What was measured otherwise cannot be compared: none of the three points is found again.
+      {"another truth", [](SceneSweep& now) { now.transport = kTransport; }, 3},
+      {"another reference", [](SceneSweep& now) { now.referenceSamples = 16; }, 3},
+      {"another scene", [](SceneSweep& now) { now.scene = "other"; }, 3},
   };
+  const std::vector<CsvRow> before = rowsOf(madeUpSweep());
   for (const Change& change : changes) {
-    SceneSweep now = sweepOfTwo();
+    SceneSweep now = madeUpSweep();
     change.change(now);
-    const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now));
+    const auto grown = grownErrors(before, rowsOf(now));
     EXPECT_EQ(grown.size(), change.grown) << change.what;
     if (change.what == std::string("just beyond")) {
       EXPECT_TRUE(hasText(grown.at(0), "total_rmse was 0.25, is 0.2752"));
@@ -120,7 +84,7 @@ TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
 // The rows say whether all transport is the truth and how far off that truth is. The rows of a
 // sweep against the model leave those fields empty.
 TEST(SweepCsv, SaysWhatTheTruthIs) {
-  SceneSweep sweep = sweepOfTwo();
+  SceneSweep sweep = madeUpSweep();
   expectFields(rowsOf(sweep)[0],
                {{"truth", "model"}, {"truth_standard_error", ""}, {"transport_flip", ""}});
 

@@ -1,25 +1,20 @@
-// Reads the rows of a sweep.csv, and compares the errors of two sweeps.
+// A made-up sweep, and the rows of a sweep.csv, whose errors are compared with those of another
+// one.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "accuracy/measurement.h"
+#include "accuracy/report.h"
 #include "core/error.h"
 #include "core/text.h"
 
 namespace whit::accuracy {
 
 using CsvRow = std::map<std::string, std::string>;
-
-// An error has grown if it exceeds the earlier one by more than this.
-struct GrowthTolerance {
-  double relative = 0.1;
-  double rmse = 1e-4, flip = 5e-4;
-  double pixels = 2;  // how many pixels shares of pixels may grow by
-};
 
 // Splits one line, whose fields may be quoted, and moves `at` behind its end.
 inline std::vector<std::string> readLine(const std::string& text, std::size_t& at) {
@@ -51,56 +46,48 @@ inline std::vector<std::string> readLine(const std::string& text, std::size_t& a
   return fields;
 }
 
-inline std::string field(const CsvRow& row, const std::string& name) {
-  const auto found = row.find(name);
-  return found == row.end() ? std::string() : found->second;
-}
-
 // Two rows can be compared if their keys are equal: the same point, measured in the same way.
 inline std::string keyOf(const CsvRow& row) {
   std::string key;
-  for (const char* name : {"scene", "width", "height", "kind", "knob", "value"}) {
-    key += field(row, name) + (std::string(name) == "width" ? "x" : " ");
+  for (const char* name : {"scene", "width", "height", "kind", "knob", "value", "truth",
+                           "truth_samples", "reference_samples", "reference_cutoff"}) {
+    const std::string& text = row.at(name);
+    if (!text.empty()) key += std::string(key.empty() ? "" : ", ") + name + " " + text;
   }
-  if (field(row, "truth") == kTruthNames[1]) {
-    key += "(all transport, " + field(row, "truth_samples") + " samples) ";
-  }
-  return key + "(reference of " + field(row, "reference_samples") + " samples, cutoff " +
-         field(row, "reference_cutoff") + ")";
+  return key;
 }
 
 inline std::optional<double> numberIn(const CsvRow& row, const std::string& name) {
-  const std::string text = field(row, name);
+  const std::string& text = row.at(name);
   if (text.empty()) return {};
   return std::stod(text);
 }
 
-inline void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance& tolerance,
-                        std::vector<std::string>& grown) {
-  const double pixels = numberIn(now, "width").value_or(1) * numberIn(now, "height").value_or(1);
-  // Shares are percentages of the pixels.
-  const double share = 100 * tolerance.pixels / pixels;
-
+inline void compareRows(const CsvRow& before, const CsvRow& now, std::vector<std::string>& grown) {
+  // An error has grown if it exceeds the earlier one by more than this share of it, and by more
+  // than a slack for each kind of error.
+  constexpr double kRelative = 0.1, kRmse = 1e-4, kFlip = 5e-4, kPixels = 2;
   const auto compare = [&](const std::string& name, double slack) {
     const std::optional<double> old = numberIn(before, name), fresh = numberIn(now, name);
     if (!old) return;
 
-    const double limit = *old * (1 + tolerance.relative) + slack;
+    const double limit = *old * (1 + kRelative) + slack;
     if (fresh && *fresh <= limit) return;  // false for NaN, which counts as grown
-    const std::string found = fresh ? field(now, name) : "missing";
-    grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " + found +
+    const std::string found = fresh ? now.at(name) : "missing";
+    grown.push_back(keyOf(now) + ": " + name + " was " + before.at(name) + ", is " + found +
                     formatted(" (limit %.4g)", limit));
   };
 
-  for (const char* group :
+  // Shares are percentages of the pixels.
+  const double share = 100 * kPixels / (*numberIn(now, "width") * *numberIn(now, "height"));
+  for (const std::string group :
        {"total", "same_samples", "sampling", "algorithm", "arithmetic", "transport"}) {
-    const std::string prefix = group;
-    compare(prefix + "_rmse", tolerance.rmse);
-    compare(prefix + "_flip", tolerance.flip);
-    compare(prefix + "_ge1_pct", share);
-    compare(prefix + "_ge2_pct", share);
+    compare(group + "_rmse", kRmse);
+    compare(group + "_flip", kFlip);
+    compare(group + "_ge1_pct", share);
+    compare(group + "_ge2_pct", share);
   }
-  compare("path_flips", tolerance.pixels);
+  compare("path_flips", kPixels);
   compare("nonfinite", 0);
 }
 
@@ -129,8 +116,7 @@ inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& 
 // Returns a line for each error that has grown, and for each row of `before` that is missing from
 // `now` or was measured with another size or reference. Times are not compared.
 inline std::vector<std::string> grownErrors(const std::vector<CsvRow>& before,
-                                            const std::vector<CsvRow>& now,
-                                            const GrowthTolerance& tolerance = {}) {
+                                            const std::vector<CsvRow>& now) {
   std::map<std::string, const CsvRow*> fresh;
   for (const CsvRow& row : now) fresh[keyOf(row)] = &row;
 
@@ -140,10 +126,55 @@ inline std::vector<std::string> grownErrors(const std::vector<CsvRow>& before,
     if (found == fresh.end()) {
       grown.push_back(keyOf(row) + ": was not measured");
     } else {
-      compareRows(row, *found->second, tolerance, grown);
+      compareRows(row, *found->second, grown);
     }
   }
   return grown;
 }
+
+// A sweep of three points of 10x10 pixels whose times and errors are easy to recognize.
+inline SceneSweep madeUpSweep() {
+  SceneSweep sweep;
+  sweep.scene = "a<b & \"c\" </script>";
+  sweep.width = sweep.height = 10;
+  sweep.referenceSamples = 64;
+  sweep.truthPng = "png";
+  sweep.idle = {{"fresnel", "nothing in the scene is transparent"}};
+
+  struct Row {
+    const char *knob, *value;
+    double ms, rmse, flip;
+  };
+  for (const Row& row : {Row{"", "standard", 10, 0.25, 0.02}, Row{"depth", "2", 8, 0.5, 0.03},
+                         Row{"depth", "16", 12, 0.375, 0.025}}) {
+    Point& point = sweep.points.emplace_back();
+    point.knob = row.knob;
+    point.value = row.value;
+    point.timing.steadyMs = row.ms;
+    point.timing.frames = point.timing.rounds = 9;
+    point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = row.ms / 10;
+    point.total.rmse = row.rmse;
+    point.total.flipMean = row.flip;
+    point.imagePng = point.totalMapPng = "png";
+  }
+
+  Point& base = sweep.points[0];
+  base.kind = PointKind::baseline;
+  base.onFront = true;
+  base.total.psnrDb = std::numeric_limits<double>::infinity();
+  base.sameSamples.emplace();
+  base.sameSamplesMapPng = "png";
+
+  Point& depth = sweep.points[1];
+  depth.cause = Cause::algorithm;
+  depth.onFront = true;
+  depth.options.depth = 2;
+  depth.total.pixelsGe1CodePct = 30;
+  depth.arithmetic.emplace().divergences = 3;
+  return sweep;
+}
+
+// The truth of a sweep against all transport.
+inline const TransportFacts kTransport{8, 512, 0.002, 0.5, 0.0123, 4000};
 
 }  // namespace whit::accuracy

@@ -60,32 +60,25 @@ TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
   }
 }
 
-TEST(TimeSamples, AFirstFrameIsNoRound) {
-  TimeSamples samples{{12}, {1.2}, true};
-  EXPECT_EQ(samples.timing().rounds, 0);
-  EXPECT_EQ(samples.timing().ratio, 1.2);
-  EXPECT_FALSE(samples.timing().hasSpread());
-  EXPECT_TRUE(samples.timing().noisy());
-}
-
-TEST(TimeSamples, FewRoundsHaveASpreadAndAreNoisyAllTheSame) {
-  TimeSamples samples{{10, 10, 10}, {1, 1, 1}, false};
-  EXPECT_TRUE(samples.timing().hasSpread());
-  EXPECT_TRUE(samples.timing().noisy());
-  samples.ratios = {1, 1, 1, 1, 1};
-  EXPECT_FALSE(samples.timing().noisy());
-}
-
 // The interval of five rounds is their range: 3 % above and below the median, and a little more.
-TEST(TimeSamples, NoisyBeyondSoManyPerCent) {
-  TimeSamples samples{{}, {1.94, 2, 2, 2, 2.06}, false};
-  EXPECT_NEAR(samples.timing().spreadPct(), 3, 1e-9);
+TEST(TimeSamples, AreNoisyIfTheyAreFewOrFarApart) {
+  struct Row {
+    std::vector<double> ratios;
+    bool isFirstFrame, hasSpread, noisy;
+  };
+  for (const Row& row :
+       {Row{{1.2}, true, false, true}, Row{{1, 1, 1}, false, true, true},
+        Row{{1, 1, 1, 1, 1}, false, true, false}, Row{{1.94, 2, 2, 2, 2.05}, false, true, false},
+        Row{{1.94, 2, 2, 2, 2.08}, false, true, true}}) {
+    const Timing timing = TimeSamples{{}, row.ratios, row.isFirstFrame}.timing();
+    EXPECT_EQ(timing.hasSpread(), row.hasSpread) << row.ratios.back();
+    EXPECT_EQ(timing.noisy(), row.noisy) << row.ratios.back();
+  }
 
-  samples.ratios.back() = 2.05;
-  EXPECT_FALSE(samples.timing().noisy());
-
-  samples.ratios.back() = 2.08;
-  EXPECT_TRUE(samples.timing().noisy());
+  const Timing first = TimeSamples{{12}, {1.2}, true}.timing();
+  EXPECT_EQ(first.rounds, 0);
+  EXPECT_EQ(first.ratio, 1.2);
+  EXPECT_NEAR((TimeSamples{{}, {1.94, 2, 2, 2, 2.06}, false}).timing().spreadPct(), 3, 1e-9);
 }
 
 }  // namespace

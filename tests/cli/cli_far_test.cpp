@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "io/gltf_files.h"
 #include "io/image/image_layers.h"
 #include "run_command.h"
 
@@ -39,22 +40,20 @@ std::string plyOf(double share) {
 
 // A triangle that sways, seen by a camera of its own.
 std::string gltfOf(double share) {
+  GltfBuilder b;
+  const std::string corners = b.positions(kTriangleXyz);
+  const std::string times =
+      b.accessor(b.view(bytesOf<float>({0, 1, 2})), 5126, "SCALAR", 3, R"(,"min":[0],"max":[2])");
   std::ostringstream text;
-  text << std::setprecision(17) << R"({"asset": {"version": "2.0"}, "nodes": [{"translation": [)"
-       << share * kAway[0] - 0.5 << ",0," << share * kAway[2]
+  text << std::setprecision(17) << R"("nodes": [{"translation": [)" << share * kAway[0] - 0.5
+       << ",0," << share * kAway[2]
        << R"(], "children": [1, 2]}, {"mesh": 0}, {"camera": 0, "translation": [0.5, 0.5, 4]}],
     "scenes": [{"nodes": [0]}], "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5}}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "animations": [{"samplers": [{"input": 1, "output": 0}],
-      "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
-      "min": [0, 0, 0], "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126,
-      "type": "SCALAR", "count": 3, "min": [0], "max": [2]}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
-    "buffers": [{"byteLength": 48, "uri": "data:application/octet-stream;base64,)"
-       // (0, 0, 0), (1, 0, 0), (0, 1, 0); 0, 1, 2
-       << R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAABA"}]})";
-  return text.str();
+    "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+      "samplers": [{"input": )"
+       << times << R"(, "output": )" << corners << R"(}]}], "meshes": [{"primitives": [)"
+       << primitive(corners) << "]}]";
+  return b.json(text.str());
 }
 
 struct Format {

@@ -1,4 +1,5 @@
 // A model without a scene file: its sky, its exposure, and how the program reports them.
+#include "io/gltf_files.h"
 #include "run_command.h"
 
 namespace whit::cli {
@@ -30,17 +31,13 @@ TEST_F(Models, InfoNamesTheSky) {
 
 // The triangle is black, except in the variant "glowing \"red\"".
 TEST_F(Models, VariantsAreListedAndChosen) {
-  save("variants.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
-      "material": 0, "extensions": {"KHR_materials_variants": {"mappings": [
-        {"material": 1, "variants": [1]}]}}}]}],
-    "materials": [{"name": "dark", "emissiveFactor": [0, 0, 0]},
-                  {"name": "red", "emissiveFactor": [1, 0, 0]}],
+  GltfBuilder b;
+  const std::string mapped = triangle(b, R"(, "material": 0,
+    "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}})");
+  save("variants.gltf", b.json(oneMesh(mapped) + R"(, "materials":
+    [{"name": "dark", "emissiveFactor": [0, 0, 0]}, {"name": "red", "emissiveFactor": [1, 0, 0]}],
     "extensions": {"KHR_materials_variants": {"variants": [
-      {"name": "plain"}, {"name": "glowing \"red\""}]}},
-    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
-      "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+      {"name": "plain"}, {"name": "glowing \"red\""}]}})"));
 
   EXPECT_EQ(jsonOf("info variants.gltf")["variants"], Json({"plain", "glowing \"red\""}));
   EXPECT_TRUE(hasText(succeed("info variants.gltf").out, "variant     plain\n"));

@@ -56,50 +56,52 @@ TEST(Summary, OfNoRaysAndNoTimeIsZero) {
   EXPECT_EQ(mraysPerSecond(1, 0), 0);
 }
 
-// Every number of the table with its unit, from numbers whose results are known by heart.
-TEST(StageTable, HasTheseWords) {
-  RunSummary run = madeUpRun(1);
-  run.frames[0].frameMs = 200;
-  run.frames[0].meter.embreeMs = 80;  // of two workers
-  for (std::size_t i = 0; i < kStageCount; ++i) {
-    run.frames[0].stageWorkerMs[i] = 20 * static_cast<double>(i + 1);
-  }
-  run.frames[0].meter.tally[0] = {3'000'000, 4'000'000};
-  run.frames[0].meter.tally[1] = {1'000'000, 1'000'000};
+// A film whose numbers are known by heart.
+RunSummary measuredRun() {
+  RunSummary run = madeUpRun(3);     // 10, 20 and 30 ms
+  run.frames[1].meter.embreeMs = 8;  // of two workers
+  run.frames[1].meter.tally[0] = {300'000, 400'000};
+  run.frames[1].meter.tally[1] = {100'000, 100'000};
   run.effects = EffectSet().with(Effect::shadows);
   run.loadMs = 1234;
   run.buildMs = 56;
+  run.floorMs = {16};
   run.updateMs = {7};
-  run.writingMs = {8};
-  run.waitedMs = {0.5};
-  run.floorMs = {160};
-  run.events = {3e9, 2e9, 1e6};
+  run.writingMs = {30, 50, 40};
+  run.waitedMs = {5, 30, 40};
+  run.tracedAndWrittenMs = 150;
+  constexpr double kRays = 2 * (2048 + 300) + 400'000;
+  run.events = {8 * kRays, 4 * kRays, kRays / 2};
+  return run;
+}
 
+// Every number of the table with its unit.
+TEST(StageTable, HasTheseWords) {
+  RunSummary run = measuredRun();
   std::string stages;
-  double sum = 0;
   for (std::size_t i = 0; i < kStageCount; ++i) {
-    const double ms = 10 * static_cast<double>(i + 1);
-    sum += ms;
-    stages += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, ms / 2);
+    const double percent = static_cast<double>(i + 1);
+    stages += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), percent / 5, percent);
   }
-  EXPECT_EQ(stageTable(run),
-            "made-up  64x32  12 triangles  2 threads  packets of 8, avx2, a tile at a time\n"
-            "  frame 200.00 ms (5.0 a second); load 1234 ms, build 56 ms\n"
-            "  stage                                     ms       %\n" +
-                stages +
-                formatted("  between the stages, waiting       %10.3f%8.1f\n", 200 - sum,
-                          (200 - sum) / 2) +
-                "  of all this inside Embree             40.000    20.0\n"
-                "  updateScene, before the frame          7.000\n"
-                "  writing the image                      8.000          0.500 waited for\n"
-                "  rays                traced    Mray/s  lanes filled %\n"
-                "  primary            3000000     15.00            75.0\n"
-                "  shadow             1000000      5.00           100.0\n"
-                "  all                4000000     20.00\n"
-                "  floor 160.00 ms (Embree alone, the same rays); frame over floor 1.25\n"
-                "  instructions a ray 750\n"
-                "  cycles a ray 500\n"
-                "  cache_misses a ray 0.25\n");
+  EXPECT_EQ(
+      stageTable(run),
+      "made-up  64x32  12 triangles  2 threads  packets of 8, avx2, a tile at a time\n"
+      "  frame 20.00 ms (50.0 a second traced, 20.0 a second traced and written), least 10.00, "
+      "95 % within 30.00, of 3 frames; load 1234 ms, build 56 ms\n"
+      "  stage                                     ms       %\n" +
+          stages +
+          "  between the stages, waiting           12.800    64.0\n"
+          "  of all this inside Embree              4.000    20.0\n"
+          "  updateScene, before the frame          7.000\n"
+          "  writing the image                     40.000          30.000 waited for\n"
+          "  rays                traced    Mray/s  lanes filled %\n"
+          "  primary             300000     15.00            75.0\n"
+          "  shadow              100000      5.00           100.0\n"
+          "  all                 400000     20.00\n"
+          "  floor 16.00 ms (Embree alone, the same rays); frame over floor 1.25\n"
+          "  instructions a ray 8\n"
+          "  cycles a ray 4\n"
+          "  cache_misses a ray 0.5\n");
 
   // Counters that do not count say why.
   run.events.clear();
@@ -113,22 +115,8 @@ TEST(StageTable, HasTheseWords) {
 
 // The same in the JSON.
 TEST(RunJson, HasTheseNumbers) {
-  RunSummary run = madeUpRun(3);     // 10, 20 and 30 ms
-  run.frames[1].meter.embreeMs = 8;  // of two workers
-  run.frames[1].meter.tally[0] = {300'000, 400'000};
-  run.frames[1].meter.tally[1] = {100'000, 100'000};
-  run.loadMs = 1234;
-  run.buildMs = 56;
-  run.floorMs = {16};
-  run.updateMs = {7};
-  run.writingMs = {30, 50, 40};
-  run.waitedMs = {5, 30, 40};
-  run.tracedAndWrittenMs = 150;
-  EXPECT_FALSE(runJson(run).contains("per_ray"));
-  constexpr double kRays = 2 * (2048 + 300) + 400'000;
-  run.events = {8 * kRays, 4 * kRays, kRays / 2};
-
-  const Json json = runJson(run);
+  EXPECT_FALSE(runJson(madeUpRun(1)).contains("per_ray"));
+  const Json json = runJson(measuredRun());
   const std::pair<const char*, double> numbers[] = {{"/frame_ms/median", 20},
                                                     {"/frame_ms/min", 10},
                                                     {"/frame_ms/p95", 30},
@@ -248,21 +236,9 @@ TEST(StageTable, ReferenceHasNoStages) {
   EXPECT_TRUE(hasText(table, "scalar reference"));
 }
 
-TEST(StageTable, TellsTheRateThatIsTrueOfAFilm) {
-  RunSummary run = madeUpRun(3);
-  EXPECT_EQ(stageTable(run).find("writ"), stageTable(run).find("writeEmitted")) << stageTable(run);
-
-  run.writingMs = {30, 50, 40};
-  run.waitedMs = {5, 30, 40};
-  run.tracedAndWrittenMs = 150;
-
-  const std::string table = stageTable(run);
-  EXPECT_TRUE(
-      hasText(table,
-              "(50.0 a second traced, 20.0 a second traced and written), least 10.00, 95 % within "
-              "30.00"));
-  EXPECT_TRUE(hasText(
-      table, "  writing the image                     40.000          30.000 waited for\n"));
+TEST(StageTable, SaysNothingOfPicturesThatAreNotWritten) {
+  const std::string table = stageTable(madeUpRun(3));
+  EXPECT_EQ(table.find("writ"), table.find("writeEmitted")) << table;
 }
 
 TEST(StageTable, NoRateIsZero) {

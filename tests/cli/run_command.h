@@ -99,6 +99,14 @@ class TinySceneTest : public testing::Test {
     EXPECT_EQ(stat((folder_ / name).c_str(), &about), 0) << name;
     return about.st_ino;
   }
+  // Runs a command that must succeed, and returns whether this file is the one it was before.
+  bool keeps(const std::string& name, const std::string& line) const {
+    // The file is held open, so that the file that replaces it does not get the same number.
+    const std::ifstream held(folder_ / name);
+    const ino_t before = fileNumber(name);
+    succeed(line);
+    return fileNumber(name) == before;
+  }
 
   const TemporaryFolder folder_;
   const std::string tiny_ = writeTinyScene(folder_);

@@ -16,6 +16,7 @@ chess = os.path.join(os.environ.get("WHIT_SOURCE_DIR", os.getcwd()), "scenes", "
 CTRL = 2  # the DevTools protocol's modifier
 keep = sys.argv[2] if len(sys.argv) > 2 else None
 wrong = []
+browser = Browser()
 
 
 def check(good, what):
@@ -24,13 +25,13 @@ def check(good, what):
         wrong.append(what)
 
 
-def open_page(browser, server, width=800, height=600):
+def open_page(server, width=800, height=600):
     browser.size(width, height)
     browser.open(server.url)
     browser.wait("typeof whit === 'object' && whit.exact", 120)
 
 
-def middle(browser, across=0.5, down=0.5):
+def middle(across=0.5, down=0.5):
     left, top, width, height = browser.run(
         "const r = stage.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]")
     return left + across * width, top + down * height
@@ -42,22 +43,31 @@ SUM = ("(() => { const d = picture.getContext('2d').getImageData(0, 0, picture.w
        " return s; })()")
 
 
-def changes(browser, act, what):
-    """The picture at rest differs after the act."""
-    before = browser.run(f"return {SUM}")
-    act()
+def becomes(condition, what):
+    """The condition in the page's script comes true."""
     try:
-        browser.wait(f"whit.exact && {SUM} !== {before}", 60)
+        browser.wait(condition)
         check(True, what)
     except AssertionError:
         check(False, what)
 
 
-def test_layout(browser, server):
+def changes(what, act, *arguments, **more):
+    """The picture at rest differs after the act."""
+    before = browser.run(f"return {SUM}")
+    act(*arguments, **more)
+    becomes(f"whit.exact && {SUM} !== {before}", what)
+
+
+def open_parts():
+    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
+
+
+def test_layout(server):
     for width, height in ((360, 740), (800, 600), (1600, 900)):
-        open_page(browser, server, width, height)
-        browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
-        browser.click(*middle(browser))
+        open_page(server, width, height)
+        open_parts()
+        browser.click(*middle())
         browser.wait("whit.settled.tree")
         wide = browser.run(
             "return [document.documentElement, document.querySelector('aside'), document.querySelector('header')]"
@@ -69,22 +79,21 @@ def test_layout(browser, server):
             browser.screenshot(os.path.join(keep, f"serve-{width}.png"))
 
 
-def test_motion(browser, server):
-    open_page(browser, server)
-    changes(browser, lambda: browser.drag(middle(browser), middle(browser, 0.7)), "a drag orbits")
-    changes(browser, lambda: browser.drag(middle(browser), middle(browser, 0.5, 0.6), button="middle"),
-            "a middle drag pans")
-    changes(browser, lambda: browser.mouse("mouseWheel", *middle(browser), deltaX=0, deltaY=-240),
-            "the wheel moves closer")
-    changes(browser, lambda: browser.key("KeyW", "w", pause=0.4), "W walks")
-    changes(browser, lambda: browser.key("KeyF", "f"), "F fits the model")
-    changes(browser, lambda: browser.mouse("mouseWheel", *middle(browser), deltaX=0, deltaY=-240), "the wheel again")
-    changes(browser, lambda: browser.key("Home", "Home"), "Home returns to the first camera")
+def test_motion(server):
+    open_page(server)
+    changes("a drag orbits", browser.drag, middle(), middle(0.7))
+    changes("a middle drag pans", browser.drag, middle(), middle(0.5, 0.6), button="middle")
+    closer = ("mouseWheel", *middle())
+    changes("the wheel moves closer", browser.mouse, *closer, deltaX=0, deltaY=-240)
+    changes("W walks", browser.key, "KeyW", "w", pause=0.4)
+    changes("F fits the model", browser.key, "KeyF", "f")
+    changes("the wheel again", browser.mouse, *closer, deltaX=0, deltaY=-240)
+    changes("Home returns to the first camera", browser.key, "Home", "Home")
 
 
-def test_rays(browser, server):
-    open_page(browser, server)
-    browser.click(*middle(browser))
+def test_rays(server):
+    open_page(server)
+    browser.click(*middle())
     browser.wait("document.querySelector('.sum')")
     # Contributions are sums of floats that doubles add in another order: a few ulps of the pixel.
     error = browser.run("return Number(document.querySelector('.sum').dataset.error)")
@@ -95,30 +104,28 @@ def test_rays(browser, server):
     browser.wait("!whit.settled.tree")
 
 
-def test_controls(browser, server):
-    open_page(browser, server)
+def test_controls(server):
+    open_page(server)
 
     def choose(name, value):
         browser.run(f"const c = controls.get('{name}'); c.value = '{value}';"
                     "c.dispatchEvent(new Event('change'))")
 
-    changes(browser, lambda: choose("depth", 0), "a knob changes the picture")
+    changes("a knob changes the picture", choose, "depth", 0)
     check(browser.run("return whit.settled.options.depth") == "0", "and the page says so")
-    changes(browser, lambda: browser.run("document.querySelector('#effects input:enabled:checked').click()"),
-            "an effect can be left out")
-    changes(browser, lambda: choose("view", "normals"), "another view is shown")
-    changes(browser, lambda: browser.key("BracketRight", "]") or choose("view", "none"), "] exposes")
+    changes("an effect can be left out", browser.run,
+            "document.querySelector('#effects input:enabled:checked').click()")
+    changes("another view is shown", choose, "view", "normals")
+    changes("] exposes", lambda: browser.key("BracketRight", "]") or choose("view", "none"))
     browser.key("KeyV", "v")
-    browser.wait("document.getElementById('status').textContent.startsWith('depth: ')")
-    check(True, "V says which view is shown")
+    becomes("document.getElementById('status').textContent.startsWith('depth: ')", "V says which view is shown")
     choose("view", "none")
     browser.wait("whit.settled.view === 'none'")
 
     pressed = "[...document.querySelectorAll('#presets [aria-pressed=true]')].map(b => b.textContent).join()"
     check(browser.run(f"return {pressed}") == "", "no preset is on after a knob was turned")
     browser.run("[...document.querySelectorAll('#presets button')].find(b => b.textContent === 'standard').click()")
-    browser.wait(f"{pressed} === 'standard'")
-    check(True, "the preset that was chosen is on")
+    becomes(f"{pressed} === 'standard'", "the preset that was chosen is on")
 
     stages = browser.run("return whit.live.stages.map(([name, ms]) => ms).reduce((a, b) => a + b)")
     check(stages > 0, "the stages take time")
@@ -126,33 +133,33 @@ def test_controls(browser, server):
     check(len(bars) == 8 and min(bars) > 250, f"the stages' bars have the width of the panel: {bars}")
 
     # The box has the focus, as that of somebody who has just typed.
-    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; });"
-                "controls.get('depth').focus()")
+    open_parts()
+    browser.run("controls.get('depth').focus()")
     choose("depth", 1000)
-    browser.wait("document.getElementById('error').textContent.includes('depth')")
-    check(True, "an option beyond its range is an error that names it")
+    becomes("document.getElementById('error').textContent.includes('depth')",
+            "an option beyond its range is an error that names it")
     browser.wait("controls.get('depth').value === whit.settled.options.depth")
     check(browser.run("return controls.get('depth').value") != "1000", "and springs back")
 
 
-def test_keys_after_controls(browser, server):
+def test_keys_after_controls(server):
     """Walking keys act after a list, a box and a number were used."""
-    open_page(browser, server)
-    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
+    open_page(server)
+    open_parts()
     for used in ("controls.get('fresnel')", "document.querySelector('#effects input:enabled')",
                  "controls.get('depth')", "document.getElementById('cameras')"):
         browser.run(f"{used}.focus()")
         value = browser.run(f"return {used}.value")
-        changes(browser, lambda: browser.key("KeyW", "w", pause=0.3), f"W walks where {used} has the focus")
+        changes(f"W walks where {used} has the focus", browser.key, "KeyW", "w", pause=0.3)
         check(browser.run(f"return {used}.value") == value, "and does not choose anything")
     browser.run("controls.get('depth').focus()")
     browser.key("Enter", "Enter")
     check(browser.run("return document.activeElement === document.body"), "Enter gives all keys to the picture")
 
 
-def test_layouts(browser, server):
+def test_layouts(server):
     """On a German keyboard Z and Y change places, and Ü has the place of [."""
-    open_page(browser, server)
+    open_page(server)
     exposure = browser.run("return whit.settled.options.exposure")
     changed = f"whit.settled.options.exposure !== '{exposure}'"
     browser.key("BracketLeft", "ü")
@@ -162,17 +169,16 @@ def test_layouts(browser, server):
     browser.wait("whit.settled.view === 'depth'")
     check(browser.run(f"return {changed}"), "Ctrl+Y is not taken for Ctrl+Z")
     browser.key("KeyY", "z", modifiers=CTRL)
-    browser.wait(f"!({changed})")
-    check(True, "Ctrl+Z undoes")
+    becomes(f"!({changed})", "Ctrl+Z undoes")
     browser.run("say('view none')")
     browser.wait("whit.settled.view === 'none'")
 
 
-def test_escape(browser, server):
+def test_escape(server):
     """Esc closes the rays of a pixel, then the panel, and opens nothing."""
-    open_page(browser, server)
+    open_page(server)
     is_bare = "document.body.classList.contains('bare')"
-    browser.click(*middle(browser))
+    browser.click(*middle())
     browser.wait("whit.settled.tree")
     browser.key("Escape", "Escape")
     browser.wait("!whit.settled.tree")
@@ -184,23 +190,22 @@ def test_escape(browser, server):
     check(browser.run("return document.getElementById('keys').offsetHeight > 0"), "H opens it with the keys")
 
 
-def test_camera_list(browser, server):
-    open_page(browser, server)
+def test_camera_list(server):
+    open_page(server)
     chosen = "document.getElementById('cameras').selectedOptions[0].textContent"
     browser.key("Digit2", "2")
     browser.wait(f"{chosen} === 'through'")
     browser.key("KeyW", "w", pause=0.3)
     browser.wait(f"{chosen} === 'free view'")
     browser.key("Digit1", "1")
-    browser.wait(f"{chosen} === 'main'")
-    check(True, "the list of cameras says which one is shown, and that none is")
+    becomes(f"{chosen} === 'main'", "the list of cameras says which one is shown, and that none is")
 
 
-def test_focus_of_effects(browser, server):
+def test_focus_of_effects(server):
     """The box that Space has switched keeps the focus, so that Tab goes on from there."""
-    open_page(browser, server)
-    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; });"
-                "document.querySelector('#effects input:enabled:checked').focus()")
+    open_page(server)
+    open_parts()
+    browser.run("document.querySelector('#effects input:enabled:checked').focus()")
     name = browser.run("return document.activeElement.name")
     browser.key("Space", " ", text=" ")
     browser.wait(f"whit.settled.effects.some(([name, called, on]) => name === '{name}' && !on) && whit.exact")
@@ -208,10 +213,10 @@ def test_focus_of_effects(browser, server):
     browser.run("say('undo')")
 
 
-def test_lost_release(browser, server):
+def test_lost_release(server):
     """A drag ends where the pointer comes back without a button."""
-    open_page(browser, server)
-    x, y = middle(browser)
+    open_page(server)
+    x, y = middle()
     browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
     browser.mouse("mouseMoved", x + 20, y, button="left", buttons=1)
     browser.mouse("mouseMoved", x + 60, y)
@@ -219,7 +224,7 @@ def test_lost_release(browser, server):
     browser.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
 
 
-def test_no_scene(browser, _):
+def test_no_scene():
     """While scenes are to be chosen from, keys go to their list and not to what it covers."""
     server = Server(whit, "--quiet")
     try:
@@ -239,9 +244,9 @@ def test_no_scene(browser, _):
         server.stop()
 
 
-def test_two_shapes(browser, server):
+def test_two_shapes(server):
     """A page whose shape differs from that of the picture shows it undistorted, and clicks hit its pixels."""
-    open_page(browser, server)
+    open_page(server)
     browser.run("say('forget')")
     browser.wait("!whit.settled.tree")
     browser.run("await fetch('input', {method: 'POST', body: 'size 200 400 1'})")
@@ -256,49 +261,48 @@ def test_two_shapes(browser, server):
     browser.wait("whit.settled.tree")
     at = browser.run("return whit.settled.tree.pixel")
     check(abs(at[0] - 150) <= 2 and abs(at[1] - 100) <= 2, f"a click is at its pixel: {at}")
-    browser.drag(middle(browser), middle(browser, 0.55))
-    browser.wait("shape().fills && whit.exact")
-    check(True, "who steers gets the shape of the page")
+    browser.drag(middle(), middle(0.55))
+    becomes("shape().fills && whit.exact", "who steers gets the shape of the page")
 
 
-def test_telephone(browser, server):
+def test_telephone(server):
     """By touch, whatever is pressed is as large as a finger."""
     browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
-    open_page(browser, server, 360, 740)
-    browser.run("document.querySelectorAll('aside > details').forEach(part => { part.open = true; })")
+    open_page(server, 360, 740)
+    open_parts()
     small = browser.run(
         "return [...document.querySelectorAll('button, select, a.button, summary, input')].filter(e => e.offsetParent)"
         ".map(e => [e.closest('label') || e, e]).map(([e, own]) => [e.getBoundingClientRect().height, own.id || own.name ||"
         " own.textContent]).filter(([height]) => height < 44)")
-    check(matches(browser, "(pointer: coarse)") and not small, f"all targets have 44 pixels: {small}")
+    check(matches("(pointer: coarse)") and not small, f"all targets have 44 pixels: {small}")
     browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
     role = browser.run("return [picture.getAttribute('role'), picture.getAttribute('aria-label')].join()")
     check(role == "img,picture of chess", f"the picture has a role and a name: {role}")
 
 
-def matches(browser, query):
+def matches(query):
     return browser.run(f"return matchMedia('{query}').matches")
 
 
-def test_lost_server(browser, _):
+def test_lost_server():
     """A server that ends, and another one in its place, are told apart."""
     first = Server(whit, "whitted", "--quiet")
     port = first.url.split(":")[2].split("/")[0]
-    open_page(browser, first, 360, 300)
+    open_page(first, 360, 300)
     first.stop()
-    browser.wait("document.getElementById('error').textContent.includes('start it again')")
-    check(True, "a server that has ended is told")
+    becomes("document.getElementById('error').textContent.includes('start it again')",
+            "a server that has ended is told")
     second = Server(whit, "whitted", "--quiet", "--port", port)
     try:
-        browser.wait("document.getElementById('error').textContent.includes('printed last')")
-        check(True, "a server that started again has another address")
+        becomes("document.getElementById('error').textContent.includes('printed last')",
+                "a server that started again has another address")
     finally:
         second.stop()
 
 
-def test_download(browser, server):
-    open_page(browser, server)
-    browser.drag(middle(browser), middle(browser, 0.3))
+def test_download(server):
+    open_page(server)
+    browser.drag(middle(), middle(0.3))
     browser.wait("!whit.exact")
     browser.wait("whit.exact", 120)
     command = browser.wait("whit.settled.command")
@@ -323,8 +327,8 @@ def test_download(browser, server):
             check(shown, "the page at rest shows every pixel of the PNG")
 
 
-def test_nothing_else(browser, server):
-    open_page(browser, server)
+def test_nothing_else(server):
+    open_page(server)
     loaded = browser.run("return performance.getEntriesByType('resource').map(entry => entry.name)")
     check(all(name.startswith(server.url) for name in loaded), "the page loads nothing from elsewhere")
     said = [event for event in browser.events if event["method"] == "Runtime.exceptionThrown" or
@@ -332,19 +336,18 @@ def test_nothing_else(browser, server):
     check(not said, f"the browser reports no error: {said}")
 
 
-browser = Browser()
 server = Server(whit, chess, "--quiet")
 spheres = Server(whit, "whitted", "--quiet")
 try:
     for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
                  test_download):
-        test(browser, server)
-    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_lost_release,
-                 test_no_scene):
-        test(browser, spheres)
+        test(server)
+    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_lost_release):
+        test(spheres)
+    test_no_scene()
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]
-    test_nothing_else(browser, server)
-    test_lost_server(browser, None)
+    test_nothing_else(server)
+    test_lost_server()
 finally:
     browser.stop()
     server.stop()
