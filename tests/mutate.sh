@@ -334,7 +334,7 @@ mutations() {
   plant overwrites-a-texture src/cli/render_job.cpp \
     'std::filesystem::exists(file) && !isOurPicture(file)' 'false'
 
-  testedBy serve_test 'PictureStream.*:Serving.*'
+  testedBy serve_test 'PictureStream.*:Serving*.*'
   plant no-nosniff viewer/serve/server.cpp \
     '{"X-Content-Type-Options", "nosniff"},' '{"X-Content-Type-Options", ""},'
   plant kept-by-caches viewer/serve/server.cpp \
