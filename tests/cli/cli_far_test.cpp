@@ -42,8 +42,7 @@ std::string plyOf(double share) {
 std::string gltfOf(double share) {
   GltfBuilder b;
   const std::string corners = b.positions(kTriangleXyz);
-  const std::string times =
-      b.accessor(b.view(bytesOf<float>({0, 1, 2})), 5126, "SCALAR", 3, R"(,"min":[0],"max":[2])");
+  const std::string times = b.add<float>("SCALAR", {0, 1, 2}, 0, ",'min':[0],'max':[2]");
   std::ostringstream text;
   text << std::setprecision(17) << R"("nodes": [{"translation": [)" << share * kAway[0] - 0.5
        << ",0," << share * kAway[2]
@@ -53,7 +52,7 @@ std::string gltfOf(double share) {
       "samplers": [{"input": )"
        << times << R"(, "output": )" << corners << R"(}]}], "meshes": [{"primitives": [)"
        << primitive(corners) << "]}]";
-  return b.json(text.str());
+  return asJson(b.json(text.str()));
 }
 
 struct Format {

@@ -32,12 +32,15 @@ TEST_F(Models, InfoNamesTheSky) {
 // The triangle is black, except in the variant "glowing \"red\"".
 TEST_F(Models, VariantsAreListedAndChosen) {
   GltfBuilder b;
-  const std::string mapped = triangle(b, R"(, "material": 0,
-    "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}})");
-  save("variants.gltf", b.json(oneMesh(mapped) + R"(, "materials":
-    [{"name": "dark", "emissiveFactor": [0, 0, 0]}, {"name": "red", "emissiveFactor": [1, 0, 0]}],
-    "extensions": {"KHR_materials_variants": {"variants": [
-      {"name": "plain"}, {"name": "glowing \"red\""}]}})"));
+  const std::string mapped =
+      primitive(b.positions(kTriangleXyz), "",
+                ",'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,"
+                "'variants':[1]}]}}");
+  save("variants.gltf", asJson(b.json(oneMesh(mapped) + R"(,
+    'materials': [{'name': 'dark', 'emissiveFactor': [0, 0, 0]},
+                  {'name': 'red', 'emissiveFactor': [1, 0, 0]}],
+    'extensions': {'KHR_materials_variants': {
+      'variants': [{'name': 'plain'}, {'name': 'glowing \"red\"'}]}})")));
 
   EXPECT_EQ(jsonOf("info variants.gltf")["variants"], Json({"plain", "glowing \"red\""}));
   EXPECT_TRUE(hasText(succeed("info variants.gltf").out, "variant     plain\n"));
