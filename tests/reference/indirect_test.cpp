@@ -263,8 +263,8 @@ double factorOfPlates(double wide, double deep, double tall) {
 }
 
 TEST(FormFactors, OfPerpendicularPlates) {
-  for (const auto& [w, d, t] :
-       {std::array{1.0f, 1.0f, 1.0f}, {2.0f, 1.0f, 0.5f}, {1.0f, 0.4f, 3.0f}}) {
+  for (const auto& size : {std::array{1.0f, 1.0f, 1.0f}, {2.0f, 1.0f, 0.5f}, {1.0f, 0.4f, 3.0f}}) {
+    const float w = size[0], d = size[1], t = size[2];
     SceneBuilder builder;
     builder.add(quad({0, 0, w}, {d, 0, w}, {d, 0, 0}, {0, 0, 0}, builder.add(diffuseMaterial(1))));
     builder.add(quad({0, 0, 0}, {0, t, 0}, {0, t, w}, {0, 0, w}, builder.add(emittingMaterial(1))));
