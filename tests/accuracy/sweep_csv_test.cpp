@@ -69,6 +69,7 @@ TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
       {"another reference", [](SceneSweep& now) { now.referenceSamples = 16; }, 3},
       {"another scene", [](SceneSweep& now) { now.scene = "other"; }, 3},
   };
+
   const std::vector<CsvRow> before = rowsOf(madeUpSweep());
   for (const Change& change : changes) {
     SceneSweep now = madeUpSweep();

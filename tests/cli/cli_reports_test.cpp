@@ -138,6 +138,7 @@ TEST(RunJson, HasTheseNumbers) {
                                                     {"/per_ray/instructions", 8},
                                                     {"/per_ray/cycles", 4},
                                                     {"/per_ray/cache_misses", 0.5}};
+
   for (const auto& [pointer, value] : numbers) {
     EXPECT_NEAR(json[Json::json_pointer(pointer)].get<double>(), value, 1e-9) << pointer;
   }

@@ -235,6 +235,7 @@ TEST(AbsentEffects, TakeTheirRaysKernelsAndColumnsAlong) {
        }) {
     SCOPED_TRACE(absence.gone);
     const Cost cost = costWithout(absence.effects);
+
     EXPECT_EQ(goneWith(all, cost), absence.gone);
     EXPECT_TRUE(all.features.without(cost.features) == absence.features);
     EXPECT_EQ(cost.buffers.hits, cost.bytesOf<HitColumns>());

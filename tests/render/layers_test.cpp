@@ -124,6 +124,7 @@ TEST(Layers, OfGltfMixByFresnelOrByTheAlbedoOfTheLobe) {
     Scene floor = underEvenSky(shadedAs(dielectric(0.5f, c.roughness, c.clearcoat), {}), 1);
     for (const double cosine : kCosines) {
       SCOPED_TRACE(testing::Message() << c.roughness << ' ' << cosine);
+
       const double lobe = std::max(c.roughness, kMinRoughness);
       const double share =
           c.roughness == 0 ? fresnel(cosine) : albedoByFacets(0.04, 1, lobe, cosine);

@@ -180,6 +180,7 @@ const std::vector<Rule>& rules() {
        },
        "the fog has a density"},
   };
+
   return all;
 }
 
