@@ -138,11 +138,12 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
   EXPECT_TRUE(samePictures(renderer, whittedWith(settings)));
 }
 
-// An aperture goes as it comes, and occlusion counts only where it is sampled.
-TEST(SetMember, HasNoEffectWithoutWhatItNeeds) {
+// A lens counts only where a pixel has several samples, and occlusion where it is sampled.
+TEST(SetMember, AnApertureGoesAsItComesAndOcclusionIsSampled) {
   Renderer renderer = whittedWith();
-  const Image sharp = renderer.render();
-  renderer.setMember("/cameras/main/aperture", "0.4").render();
+  const Image sharp = renderer.set("spp", "4").render();
+  EXPECT_FALSE(samePictures(renderer.setMember("/cameras/main/aperture", "0.4"), sharp));
+
   bool built = false;
   watchBuilding(renderer, built);
   EXPECT_TRUE(samePictures(renderer.setMember("/cameras/main/aperture", "0"), sharp));

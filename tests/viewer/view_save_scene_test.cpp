@@ -211,11 +211,13 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
 
 TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   save("bad.hdr", "#?RADIANCE\n\n-Y 1 +X 1000000\n");
-  const Words lines = commandsOf(
-      2,
-      "errors show\nbare\nasked\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
-      "key Ctrl+S\nkey C\n");
-  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=48x32");
+  const Words lines =
+      commandsOf(2,
+                 "errors show\nbare\nasked\nwait sharp\nscreenshot before.png\ndrop bad.hdr\n"
+                 "wait 30 frames\nwait sharp\nscreenshot error.png\nkey Ctrl+S\nkey C\n",
+                 "320x200");
+  expectOtherCodes("before.png", "error.png");  // an error is shown without the other words, too
+  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=320x200");
   EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }
 
