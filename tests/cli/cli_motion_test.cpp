@@ -47,7 +47,7 @@ TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
     succeed(line + " -o many#.exr --threads 8 --frames " + at);
 
     const std::string whole = bytesOf("film" + at + ".exr");
-    EXPECT_NE(whole, bytesOf(formatted("film%d.exr", film.frame - 1)));
+    EXPECT_NE(valuesOf("film" + at + ".exr"), valuesOf(formatted("film%d.exr", film.frame - 1)));
     EXPECT_TRUE(whole == bytesOf("alone" + at + ".exr"));
     EXPECT_EQ(valuesOf("film" + at + ".exr"), valuesOf("many" + at + ".exr"));
   }
@@ -55,7 +55,7 @@ TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
 
 // The option --time gives the picture of the frame at that time, of a path of the camera as well.
 TEST_F(Motion, AnInstantIsTheFrameAtItsTime) {
-  for (const std::string scene : {"moving.gltf", "tiny.json"}) {
+  for (const std::string scene : {"moving.gltf", "tiny.json", "orrery"}) {
     const std::string line = "render " + scene + " --fps 2 --size 64x40 --exposure 0 ";
     succeed(line + "-o instant.exr --time 0.5");
     succeed(line + "-o frame#.exr --frames 1");

@@ -71,7 +71,7 @@ RunSummary measuredRun() {
   run.waitedMs = {5, 30, 40};
   run.tracedAndWrittenMs = 150;
   constexpr double kRays = 2 * (2048 + 300) + 400'000;
-  run.events = {8 * kRays, 4 * kRays, kRays / 2};
+  run.events = {750 * kRays, 500 * kRays, kRays / 4};
   return run;
 }
 
@@ -99,9 +99,9 @@ TEST(StageTable, HasTheseWords) {
           "  shadow              100000      5.00           100.0\n"
           "  all                 400000     20.00\n"
           "  floor 16.00 ms (Embree alone, the same rays); frame over floor 1.25\n"
-          "  instructions a ray 8\n"
-          "  cycles a ray 4\n"
-          "  cache_misses a ray 0.5\n");
+          "  instructions a ray 750\n"
+          "  cycles a ray 500\n"
+          "  cache_misses a ray 0.25\n");
 
   // Counters that do not count say why.
   run.events.clear();
@@ -135,9 +135,9 @@ TEST(RunJson, HasTheseNumbers) {
                                                     {"/load_ms", 1234},
                                                     {"/build_ms", 56},
                                                     {"/stages_ms/generateRays", 0.2},
-                                                    {"/per_ray/instructions", 8},
-                                                    {"/per_ray/cycles", 4},
-                                                    {"/per_ray/cache_misses", 0.5}};
+                                                    {"/per_ray/instructions", 750},
+                                                    {"/per_ray/cycles", 500},
+                                                    {"/per_ray/cache_misses", 0.25}};
 
   for (const auto& [pointer, value] : numbers) {
     EXPECT_NEAR(json[Json::json_pointer(pointer)].get<double>(), value, 1e-9) << pointer;
@@ -240,6 +240,13 @@ TEST(StageTable, ReferenceHasNoStages) {
 TEST(StageTable, SaysNothingOfPicturesThatAreNotWritten) {
   const std::string table = stageTable(madeUpRun(3));
   EXPECT_EQ(table.find("writ"), table.find("writeEmitted")) << table;
+}
+
+TEST(StageTable, OfOnePictureTellsOneRate) {
+  RunSummary run = madeUpRun(1);
+  run.writingMs = {8};
+  run.waitedMs = {0.5};
+  EXPECT_TRUE(hasText(stageTable(run), "  frame 10.00 ms (100.0 a second); load "));
 }
 
 TEST(StageTable, NoRateIsZero) {

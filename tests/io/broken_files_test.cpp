@@ -100,7 +100,7 @@ TEST_F(BrokenFiles, Images) {
   };
   for (const auto& [name, text, error] : images) {
     save(name, text);
-    expectErrorsOfMembers({{"'textures': {'t': {'image': '" + name + "'}}", "*" + name + error}});
+    expectErrorsOfMembers({{"'textures': {'t': {'image': '" + name + "'}}", "3 " + name + error}});
   }
 }
 

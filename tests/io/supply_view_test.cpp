@@ -311,13 +311,22 @@ TEST_F(SuppliedView, AStatueOnABaseIsTurnedAndShelvesOnAWallAreNot) {
   EXPECT_FALSE(isTurned(shelves)) << "the wall is z = 0";
 }
 
-// viewOf() fits a model into the scene's picture.
+// The corners reach the margin of the picture, whatever its shape, and none is outside.
 TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
   for (const ImageSize size : {ImageSize{480, 300}, {300, 300}, {200, 320}, {1200, 300}}) {
     options_.size = size;
     const SceneDescription scene = loadObj(kZUpObj);
     EXPECT_EQ(scene.width, size.width);
-    EXPECT_TRUE(sameView(scene.cameras.at(0), viewOf(scene).camera)) << size.width;
+    EXPECT_EQ(scene.height, size.height);
+
+    std::vector<Vec3d> corners;
+    for (const Vec3f& p : meshOf(scene).positions) {
+      corners.push_back(scene.instances.at(0).toWorld.point(Vec3d(p)));
+    }
+    const double aspect = static_cast<double>(size.width) / size.height;
+    const double farthest = farthestInPicture(scene.cameras.at(0), aspect, corners);
+    EXPECT_LE(farthest, 1) << size.width;
+    EXPECT_GT(farthest, 0.85) << size.width;
   }
 }
 

@@ -122,6 +122,7 @@ TEST(Absorption, DependsOnThePathInside) {
     const double path = 1 / std::cos(degrees * kPi / 180);
     const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
     expectNear(seen, {std::exp(-path), std::exp(-path / 2), 1}, kOffsetsOfTwoFaces);
+    EXPECT_EQ(seen.z, 1);
 
     EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), without(Effect::absorption)),
               RgbD(1.0));

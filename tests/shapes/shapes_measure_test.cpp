@@ -79,8 +79,9 @@ TEST(Measures, FlatFacesAreExact) {
   for (const Measured& shape : shapes) {
     const Mesh mesh = meshOf(shape.name, shape.parameters);
     EXPECT_NEAR(volume(mesh), shape.volume, kFloat * shape.volume) << shape.name;
-    const double expected = shape.area.value_or(area(mesh));
-    EXPECT_NEAR(area(mesh), expected, kFloat * expected) << shape.name;
+    if (shape.area) {
+      EXPECT_NEAR(area(mesh), *shape.area, kFloat * *shape.area) << shape.name;
+    }
   }
 
   EXPECT_EQ(meshOf("box").triangles.size(), 12u);
