@@ -46,7 +46,10 @@ if $full; then
   WHIT_CLEAN_SYSTEMS=$(mktemp -d)
   export WHIT_CLEAN_SYSTEMS
 fi
-trap 'rm -rf --one-file-system "$failures" "$output" "${WHIT_CLEAN_SYSTEMS:-}"' EXIT
+packageLog=$(mktemp)
+packaging=
+trap '[ -z "$packaging" ] || kill -- "-$packaging" 2>/dev/null
+  rm -rf --one-file-system "$failures" "$output" "$packageLog" "${WHIT_CLEAN_SYSTEMS:-}"' EXIT
 
 # step NAME COMMAND...: runs it, remembers a failure and its last lines, goes on. Status 77: this system
 # has no way to it.
@@ -142,6 +145,25 @@ makeCleanSystems() (
   for release in bookworm trixie; do keepCleanSystem "$release" || exit; done
 ) >/dev/null 2>&1
 
+# The package is made and tried beside the steps that follow, because much of that has one thread or
+# waits for the network. What comes of it is said at its step.
+beginPackage() {
+  set -m  # a process group of its own, for the trap
+  (
+    tests/package.sh
+    echo "status $?"
+  ) >"$packageLog" 2>&1 &
+  packaging=$!
+  set +m
+}
+endPackage() {
+  local status
+  while kill -0 "$packaging" 2>/dev/null; do sleep 1; done
+  sed '$d' "$packageLog"
+  status=$(sed -n '$s/^status //p' "$packageLog")
+  return "${status:-1}"
+}
+
 # 10 s a reader; tests/fuzz/run.sh by itself runs for longer.
 fuzzReaders() {
   tests/fuzz/run.sh 10
@@ -163,7 +185,10 @@ if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 step "programs that tests start" installTestPrograms
 useCompilerCache "$root"
-if $full; then makeCleanSystems & fi
+if $full; then
+  makeCleanSystems &
+  beginPackage
+fi
 step "format" tests/format.sh --check
 if $full; then
   tidiness=()
@@ -172,7 +197,7 @@ if $full; then
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
-  step "package" tests/package.sh
+  step "package" endPackage
   step "farm engines" tests/farm_engines.sh build-package/whit
 fi
 if $deep; then
