@@ -181,7 +181,9 @@ void noteHiddenSides(const SceneDescription& description, Warnings& warnings) {
           return mirrored ? side < 0 : side > 0;
         });
       };
-      if (!isSingle || std::ranges::any_of(mesh.triangles, isSeen)) continue;
+      // A sphere has fronts towards every camera outside of it.
+      if (!isSingle || !mesh.spheres.empty()) continue;
+      if (std::ranges::any_of(mesh.triangles, isSeen)) continue;
 
       warnings.note(
           "single-sided mesh that every camera is behind is not seen (to show its back: "

@@ -1,4 +1,5 @@
-// The triangles of a scene that is not baked yet, in their places.
+// The triangles of a scene that is not baked yet, in their places. Exact spheres are looked at as
+// facets.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "core/affine.h"
 #include "core/index.h"
 #include "core/vec3.h"
+#include "make/shape.h"
 #include "scene/description.h"
 
 namespace whit {
@@ -27,10 +29,26 @@ inline bool isGroundShadow(const SceneDescription& scene, const Mesh& mesh) {
   return material < scene.materials.size() && scene.materials[material].name == kGroundShadowName;
 }
 
+// The unit sphere: its facets are within half a percent of it, and touch it where it meets the
+// axes.
+inline const Mesh& facettedSphere() {
+  constexpr int kSegments = 32;
+  static const Mesh facetted = [] {
+    Mesh mesh;
+    mesh.spheres = {Affine()};
+    procedural::tessellateSpheres(mesh, kSegments);
+    return mesh;
+  }();
+  return facetted;
+}
+
 inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
   std::uint64_t count = 0;
   for (const Instance& instance : scene.instances) {
-    for (const Mesh& mesh : scene.objects[instance.object].meshes) count += mesh.triangles.size();
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      count += mesh.triangles.size();
+      if (!mesh.spheres.empty()) count += mesh.spheres.size() * facettedSphere().triangles.size();
+    }
   }
   return count;
 }
@@ -61,10 +79,25 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
 
   // One count runs over the triangles of all instances, and every stride-th of them is used.
   std::uint64_t number = 0;
+  const auto useTriangles = [&](const Mesh& mesh, const std::vector<Vec3f>& positions,
+                                const Affine& toWorld) {
+    const bool mirrored = toWorld.determinant() < 0;
+
+    const std::uint64_t first = (stride - number % stride) % stride;
+    number += mesh.triangles.size();
+    for (std::uint64_t i = first; i < mesh.triangles.size(); i += stride) {
+      auto corners = placed(positions, mesh.triangles[i], toWorld);
+      if (!corners) continue;
+
+      // A transform that mirrors would turn fronts into backs.
+      if (mirrored) std::swap((*corners)[1], (*corners)[2]);
+      use(*corners);
+    }
+  };
+
   for (const Instance& instance : scene.instances) {
     const bool moves = instance.mover != kNoNode;
     const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
-    const bool mirrored = toWorld.determinant() < 0;
 
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
       if (isGroundShadow(scene, mesh)) continue;
@@ -74,16 +107,10 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
       if (const Deformation* deformation = mesh.deformation.get()) {
         bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
       }
-      const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
+      useTriangles(mesh, mesh.deformation ? bent : mesh.positions, toWorld);
 
-      for (const auto& triangle : mesh.triangles) {
-        if (number++ % stride != 0) continue;
-        auto corners = placed(positions, triangle, toWorld);
-        if (!corners) continue;
-
-        // A transform that mirrors would turn fronts into backs.
-        if (mirrored) std::swap((*corners)[1], (*corners)[2]);
-        use(*corners);
+      for (const Affine& sphere : mesh.spheres) {
+        useTriangles(facettedSphere(), facettedSphere().positions, toWorld * sphere);
       }
     }
   }
