@@ -1,6 +1,7 @@
 // Interruptions within one process: what is being written is finished first.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cstdio>
 
@@ -20,10 +21,11 @@ void interruptedWhileWriting() {
   std::fputs("went on", stderr);
 }
 
-void interruptedOtherwise(int signal) {
+void interruptedOtherwise(int number) {
+  signal(number, SIG_DFL);  // the tests may have been started by nohup
   installInterruptHandlers();
   { const WriteScope earlier; }
-  raise(signal);
+  raise(number);
   std::fputs("went on", stderr);
 }
 
@@ -36,6 +38,17 @@ TEST(InterruptDeathTest, EndsAtOnceOtherwise) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     EXPECT_EXIT(interruptedOtherwise(signal), testing::ExitedWithCode(kInterruptedStatus), "^$");
   }
+}
+
+TEST(InterruptDeathTest, WhatNohupStartsOutlivesItsTerminal) {
+  const auto startedByNohup = [] {
+    signal(SIGHUP, SIG_IGN);
+    installInterruptHandlers();
+    raise(SIGHUP);
+    std::fputs("went on", stderr);
+    _exit(0);
+  };
+  EXPECT_EXIT(startedByNohup(), testing::ExitedWithCode(0), "^went on$");
 }
 
 }  // namespace
