@@ -29,8 +29,8 @@ void expectNarrowLines(const std::string& text) {
   for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
-// The shipped scenes that take little time are swept with every knob. AccuracyReport and Fronts hold
-// what the report says of the rows.
+// The shipped scenes that take little time are swept with every knob. AccuracyReport and Fronts
+// hold what the report says of the rows.
 TEST_F(AccuracyProgram, SweepsShippedScenes) {
   const std::string seconds = kSanitized ? "0.05" : "0.5";
   expectNarrowLines(sweep("whitted glossy --size 8x6 --time-budget " + seconds));

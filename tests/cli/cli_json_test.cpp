@@ -1,5 +1,5 @@
-// The JSON results have the keys that tools rely on, and numbers that agree with each other. RunJson
-// has the numbers of a run.
+// The JSON results have the keys that tools rely on, and numbers that agree with each other.
+// RunJson has the numbers of a run.
 #include <algorithm>
 #include <sstream>
 
