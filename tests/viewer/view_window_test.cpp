@@ -290,7 +290,7 @@ TEST_F(Viewer, ErrorsEndAScript) {
   const cli::Outcome outcome = run("drop missing.json\nwait 60 frames\nwait sharp\n");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(hasText(outcome.err, "missing.json"));
-  const cli::Outcome unread = run("quit\n\n# all is well\nkey Lft\n");
+  const cli::Outcome unread = run("minimize\n\n# all is well\nkey Lft\n");
   EXPECT_EQ(unread.status, 3);
   EXPECT_TRUE(hasText(unread.err, "script.txt:4: expected key NAME [SECONDS], got 'key Lft'"));
 
