@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
+#include "cli/run_command.h"
 #include "command_line/parse_options.h"
 #include "core/option_table.h"
 #include "output/digest.h"
@@ -25,13 +25,6 @@ RenderOptions parsed(const std::vector<std::string>& words) {
   return common.render;
 }
 
-std::vector<std::string> wordsOf(std::string_view text) {
-  std::istringstream stream{std::string(text)};
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
 // LabelsAreWhatTheCommandLineTakes parses the values and what they need.
 TEST(Knobs, TheTableHasValuesOfTheOptions) {
   const RenderOptions defaults;
@@ -39,8 +32,8 @@ TEST(Knobs, TheTableHasValuesOfTheOptions) {
     RenderOptions options;
     EXPECT_NO_THROW(setOption(options, knob.name, knob.exact)) << knob.name;
 
-    const std::vector<std::string> values = wordsOf(knob.spec.values);
-    for (const std::string& word : wordsOf(knob.spec.minor)) {
+    const cli::Words values = cli::split(std::string(knob.spec.values));
+    for (const std::string& word : cli::split(std::string(knob.spec.minor))) {
       EXPECT_EQ(std::ranges::count(values, word), 1) << knob.name << word;
     }
 

@@ -121,10 +121,6 @@ TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   EXPECT_NE(digestOf(options), before);
 
   options = {};
-  options.shading.fresnel = FresnelModel::schlick;
-  EXPECT_NE(digestOf(options), before);
-
-  options = {};
   options.eye = Vec3d();
   EXPECT_NE(digestOf(options), before) << "nothing is not zero";
 }

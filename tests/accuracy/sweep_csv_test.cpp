@@ -7,7 +7,6 @@
 #include "accuracy/sweep_rows.h"
 #include "has_text.h"
 #include "output/report_page.h"
-#include "unit/scene_builder.h"
 
 namespace whit::accuracy {
 namespace {
@@ -38,11 +37,6 @@ TEST(SweepCsv, WhatIsWrittenIsRead) {
   EXPECT_TRUE(hasText(" " + rows[1].at("options") + " ", " depth=2 "));
 }
 
-TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
-  test::expectError(ExitStatus::badScene, {"old.csv:3"},
-                    [] { parseCsv("a,b\n1,2\n3\n", "old.csv"); });
-}
-
 // A change of madeUpSweep(), and how many errors have then grown.
 struct Change {
   const char* what;
@@ -52,9 +46,6 @@ struct Change {
 
 TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
   const Change changes[] = {
-      {"nothing", [](SceneSweep&) {}, 0},
-      {"a smaller error", [](SceneSweep& now) { now.points[1].total.rmse = 0.1; }, 0},
-      {"another time", [](SceneSweep& now) { now.points[1].timing.medianMs = 1e6; }, 0},
       // The limit is 10 % more and the absolute slack.
       {"just within", [](SceneSweep& now) { now.points[0].total.rmse = 0.2750; }, 0},
       {"just beyond", [](SceneSweep& now) { now.points[0].total.rmse = 0.2752; }, 1},
@@ -65,9 +56,7 @@ TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
       {"NaN", [](SceneSweep& now) { now.points[0].total.rmse = std::nan(""); }, 1},
       {"a point less", [](SceneSweep& now) { now.points.pop_back(); }, 1},
       // What was measured otherwise cannot be compared: none of the three points is found again.
-      {"another truth", [](SceneSweep& now) { now.transport = kTransport; }, 3},
       {"another reference", [](SceneSweep& now) { now.referenceSamples = 16; }, 3},
-      {"another scene", [](SceneSweep& now) { now.scene = "other"; }, 3},
   };
 
   const std::vector<CsvRow> before = rowsOf(madeUpSweep());

@@ -2,6 +2,8 @@
 // one.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "accuracy/report.h"
-#include "core/error.h"
 #include "core/text.h"
 
 namespace whit::accuracy {
@@ -91,7 +92,7 @@ inline void compareRows(const CsvRow& before, const CsvRow& now, std::vector<std
   compare("nonfinite", 0);
 }
 
-// Throws Error(badScene) "name:line: ..." for a row with another number of fields than the header.
+// Expects that each row has as many fields as the header.
 inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& name) {
   std::size_t at = 0;
   const std::vector<std::string> header = readLine(text, at);
@@ -100,15 +101,10 @@ inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& 
   for (int line = 2; at < text.size(); ++line) {
     const std::vector<std::string> fields = readLine(text, at);
     if (fields.size() == 1 && fields[0].empty()) continue;
-    if (fields.size() != header.size()) {
-      throwBadScene(name + ":" + std::to_string(line), "expected " + std::to_string(header.size()) +
-                                                           " fields as in the header, found " +
-                                                           std::to_string(fields.size()));
-    }
+    EXPECT_EQ(fields.size(), header.size()) << name << ":" << line;
 
-    CsvRow row;
-    for (std::size_t i = 0; i < fields.size(); ++i) row[header[i]] = fields[i];
-    rows.push_back(std::move(row));
+    CsvRow& row = rows.emplace_back();
+    for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
   }
   return rows;
 }

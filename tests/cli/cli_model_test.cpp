@@ -138,16 +138,6 @@ TEST_F(Models, TheirCamerasHaveMembersToSet) {
   EXPECT_EQ(narrow, codesOf(set + "/orthographicHeight=3 --fov 20 --ortho 0"));
 }
 
-TEST_F(Models, ACropIsExposedAsTheWhole) {
-  for (const std::string scene : {"model.obj", "tiny.json"}) {
-    const std::string words = scene + " --exposure auto";
-    const Codes whole = codesOf(words), corner = codesOf(words + " --crop 0,0,24,3");
-    // The crop holds the first rows, so its codes are the first of the whole picture.
-    ASSERT_GE(whole.size(), corner.size());
-    EXPECT_TRUE(std::equal(corner.begin(), corner.end(), whole.begin())) << scene;
-  }
-}
-
 TEST_F(Models, FramesOfAPathAreExposedAlike) {
   const std::string line = "render tiny.json --fps 1 --exposure auto ";
   succeed(line + "-o f#.png --frames 0..1");

@@ -135,12 +135,17 @@ TEST(RunJson, HasTheseNumbers) {
                                                     {"/load_ms", 1234},
                                                     {"/build_ms", 56},
                                                     {"/stages_ms/generateRays", 0.2},
+                                                    {"/stages_ms/updateImage", 1.6},
                                                     {"/per_ray/instructions", 750},
                                                     {"/per_ray/cycles", 500},
                                                     {"/per_ray/cache_misses", 0.25}};
 
   for (const auto& [pointer, value] : numbers) {
     EXPECT_NEAR(json[Json::json_pointer(pointer)].get<double>(), value, 1e-9) << pointer;
+  }
+  EXPECT_EQ(json["stages_ms"].size(), kStageCount);
+  for (const char* ofKinds : {"rays", "lanes_filled"}) {
+    EXPECT_EQ(json[ofKinds].size(), kRayKindCount) << ofKinds;
   }
   // This process takes more than a megabyte and less than a hundred gigabytes.
   EXPECT_GT(json["peak_rss_mb"].get<double>(), 1);

@@ -30,7 +30,7 @@ export XDG_CONFIG_HOME=$work  # nobody's settings
 # The shipped model is what its script makes and needs no repairs.
 python3 scenes/make_chess.py made.glb && cmp made.glb scenes/chess.glb || exit 1
 "$whit" render scenes/chess.glb --strict --size 48x32 -o strict.png --quiet || exit 1
-printf 'wait 2 frames\nquit\n' >leave.txt
+echo 'wait 2 frames' >leave.txt
 
 # One command a line: first those of code blocks, without their comments, then those within text.
 commandsOf() {

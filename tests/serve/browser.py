@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
@@ -24,9 +25,9 @@ except ImportError:
 class Server:
     """`whit serve` with these words; `url` is its address."""
 
-    def __init__(self, whit, *words, prefix=()):
-        self.process = subprocess.Popen([*prefix, whit, "serve", *words], stdout=subprocess.PIPE,
-                                        stderr=subprocess.DEVNULL, text=True)
+    def __init__(self, whit, *words):
+        self.process = subprocess.Popen([whit, "serve", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                        text=True)
         self.url = self.process.stdout.readline().strip()
         if not self.url.startswith("http://"):
             raise RuntimeError("whit serve printed no address")
@@ -39,14 +40,14 @@ class Server:
 class Browser:
     """A headless Chromium with one page."""
 
-    def __init__(self, prefix=()):
+    def __init__(self):
         found = next((name for name in map(shutil.which, BROWSERS) if name), None)
         if not found:
             skip("no Chromium here: the page of whit serve is not looked at")
         self.folder = tempfile.mkdtemp()
         self.log = open(os.path.join(self.folder, "log"), "w+")
         self.process = subprocess.Popen(
-            [*prefix, found, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+            [found, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
              "--remote-debugging-port=0", "--remote-allow-origins=*", f"--user-data-dir={self.folder}/profile",
              "about:blank"], stdout=subprocess.DEVNULL, stderr=self.log)
         where = os.path.join(self.folder, "profile", "DevToolsActivePort")
@@ -55,15 +56,15 @@ class Browser:
                 break
             time.sleep(0.1)
         port = open(where).read().split("\n")[0]
-        # In a network namespace of its own the browser is reached by a program in it.
-        self.lister = [*prefix, "curl", "-s", f"http://127.0.0.1:{port}/json/list"]
+        self.pages = f"http://127.0.0.1:{port}/json/list"
         self.number = 0
         self.events = []
         self.attach("page")
 
     def attach(self, kind):
         """Talks to the page, or to the "iframe" of another site in it, from now on. Returns whether it is there."""
-        pages = json.loads(subprocess.check_output(self.lister))
+        with urllib.request.urlopen(self.pages) as answer:
+            pages = json.load(answer)
         page = next((page for page in pages if page["type"] == kind), None)
         if page:
             self.socket = websocket.create_connection(page["webSocketDebuggerUrl"], timeout=60)

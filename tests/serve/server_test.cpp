@@ -532,8 +532,6 @@ TEST_F(Serving, KeysThatNobodyHoldsAnyMoreAreLetGo) {
   EXPECT_TRUE(becomes(true));
 }
 
-TEST_F(Serving, APageGetsPictures) { EXPECT_EQ(watch(12), 12); }
-
 // Returns the number of threads of this process.
 int threadsNow() {
   std::ifstream file("/proc/self/status");

@@ -51,14 +51,9 @@ TEST(NearestName, ABeginningStandsForItsOnlyName) {
                {"re", {"packets", "reference"}, ""}});
 }
 
+// DeadEnds has more of these words.
 TEST(NearestName, WordsOfOtherProgramsLeadToOurs) {
-  const std::vector<std::string> names{"--spp",     "--size", "--ambient-samples", "--indirect",
-                                       "--threads", "--at",   "--sample"};
-  expectMeant({{"--samples", names, "--spp"},
-               {"--width", names, "--size"},
-               {"--ao", names, "--ambient-samples"},
-               {"--gi", names, "--indirect"},
-               {"-j", names, "--threads"},
+  expectMeant({{"--samples", {"--sample", "--spp"}, "--spp"},
                {"samples", {"spp"}, "spp"},
                {"--samples", {"--sample"}, "--sample"}});  // there is no --spp
 }

@@ -195,6 +195,7 @@ TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
             "no mesh uses a material that light passes");
   EXPECT_EQ(reason(scene, Effect::shadows).because, "the scene has no light");
   EXPECT_EQ(reason(scene, Effect::skyImage).because, "the sky is black");
+  EXPECT_EQ(reason(scene, Effect::depthOfField).because, "no camera has an aperture");
 }
 
 TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {

@@ -76,10 +76,8 @@ ScriptCommand sharpCommand(const Words& words) {
 }
 
 ScriptCommand waitCommand(const Words& words) {
-  require(words[2] == "frames" || words[2] == "seconds");
-  const double amount = number(words[1]);
-  return {nullptr,
-          words[2] == "seconds" ? framesOf(amount) : std::max(1, static_cast<int>(amount))};
+  require(words[2] == "frames");
+  return {nullptr, std::max(1, static_cast<int>(number(words[1])))};
 }
 
 ScriptCommand screenshotCommand(const Words& words) {
@@ -121,9 +119,8 @@ ScriptCommand resizeCommand(const Words& words) {
 }
 
 ScriptCommand errorsCommand(const Words& words) {
-  const bool show = words[1] == "show";
-  require(show || words[1] == "end");
-  return setting(&ScriptStep::showErrors, show);
+  require(words[1] == "show");
+  return setting(&ScriptStep::showErrors, true);
 }
 
 template <bool ScriptStep::*kFlag>
@@ -137,19 +134,18 @@ constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = 
     {"mouse left|right|middle DX DY", mouseCommand},
     {"wheel NOTCHES", wheelCommand},
     {"wait sharp", sharpCommand},
-    {"wait N frames|seconds", waitCommand},
+    {"wait N frames", waitCommand},
     {"click X Y [X2 Y2]", clickCommand},
     {"point X Y", pointCommand},
     {"screenshot FILE.png", screenshotCommand},
     {"panel NAME", panelCommand},
     {"drop FILE", dropCommand},
     {"resize W H", resizeCommand},
-    {"errors show|end", errorsCommand},
+    {"errors show", errorsCommand},
     {"minimize", plainCommand<&ScriptStep::minimize>},
     {"restore", plainCommand<&ScriptStep::restore>},
     {"bare", plainCommand<&ScriptStep::bare>},
     {"asked", plainCommand<&ScriptStep::askedSamples>},
-    {"quit", plainCommand<&ScriptStep::quit>},
 };
 
 Words wordsOf(const std::string& line) {

@@ -4,7 +4,7 @@
 //   key Ctrl+NAME
 //   mouse left|right|middle DX DY    dragged by so many pixels
 //   wheel NOTCHES
-//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
+//   wait N frames | wait sharp    sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
 //   point X Y                     the pointer rests there from now on
@@ -13,8 +13,7 @@
 //   resize W H | minimize | restore
 //   bare                          the picture alone, without panel, words and messages
 //   asked                         at rest no more samples than asked for
-//   errors show | errors end      errors are shown as to a user; by default they end the script
-//   quit
+//   errors show                   errors are shown as to a user; by default they end the script
 //
 // Time is that of the frames: 1/60 s each, however long they take.
 #pragma once
@@ -31,13 +30,13 @@ namespace whit::view {
 // What a script does in one frame, apart from its input.
 struct ScriptStep {
   std::string screenshot;  // taken of this frame after drawing; empty: none
-  bool quit = false;       // the end of the script quits too
+  bool quit = false;       // the script is at its end
   std::optional<ImageSize> resize;
   bool minimize = false, restore = false, bare = false;
   bool askedSamples = false;           // at rest no more samples than asked for
   std::string tab;                     // tab of the panel to turn to; empty: it stays
   std::optional<Input::Pointer> rest;  // where the pointer rests from now on
-  std::optional<bool> showErrors;      // false: errors end the script
+  bool showErrors = false;             // from now on
 };
 
 struct ScriptCommand {

@@ -290,7 +290,9 @@ TEST_F(Viewer, ErrorsEndAScript) {
   const cli::Outcome outcome = run("drop missing.json\nwait 60 frames\nwait sharp\n");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(hasText(outcome.err, "missing.json"));
-  EXPECT_EQ(run("wait\n").status, 3);
+  const cli::Outcome unread = run("minimize\n\n# all is well\nkey Lft\n");
+  EXPECT_EQ(unread.status, 3);
+  EXPECT_TRUE(hasText(unread.err, "script.txt:4: expected key NAME [SECONDS], got 'key Lft'"));
 
   // A first scene that cannot be read, or lacks the camera, ends it as it ends other commands.
   const std::string goesOn = "errors show\nwait 60 frames\n";

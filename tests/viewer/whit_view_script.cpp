@@ -51,7 +51,7 @@ class PlayedScript : public ScriptedUser {
       shown.words = false;
       shown.over = Over::nothing;
     }
-    if (step.showErrors) survivesErrors_ = *step.showErrors;
+    survivesErrors_ |= step.showErrors;
 
     screenshot_ = step.screenshot;
     return !step.quit;
