@@ -13,6 +13,8 @@ if(TARGET whit-view)
   endif()
   whit_tests(viewer whit_view)
   target_sources(viewer_test PRIVATE viewer/script.cpp)
+  # It is no test, and does not see what tests have.
+  set_source_files_properties(viewer/script.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(viewer_test SYSTEM PRIVATE ${WHIT_IMGUI_INCLUDE_DIR})
   whit_runs_programs(viewer whit whit-view whit-view-script)
   if(NOT WHIT_SANITIZE)

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "engine/engine.h"
+#include "io/gltf_files.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "make/studio_sky.h"
@@ -246,21 +247,13 @@ TEST_F(EditedModel, IsEditedInPlaceAsScenesAre) {
 // A roughness that is set is meant as it stands, so that the map of a model's material goes.
 TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
   writePng(folder_ / "r.png", DisplayImage{2, 1, {0, 50, 0, 255, 0, 200, 0, 255}}, {});
-  save("m.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
-    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
-      "material": 0}]}],
-    "materials": [{"name": "m", "pbrMetallicRoughness": {"metallicRoughnessTexture":
-      {"index": 0}}}],
-    "textures": [{"source": 0}], "images": [{"uri": "r.png"}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-      "min": [0, 0, 0], "max": [1, 1, 0]},
-      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36,
-      "byteLength": 24}],
-    "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
-                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"
-                 R"("}]})");
+  GltfBuilder b;
+  const std::string uvs = ",'TEXCOORD_0':" + b.floats("VEC2", {0, 0, 1, 0, 0, 1});
+  save("m.gltf",
+       asJson(b.json(oneMesh(primitive(b.positions(kTriangleXyz), uvs, ",'material':0")) +
+                     ",'materials':[{'name':'m','pbrMetallicRoughness':{"
+                     "'metallicRoughnessTexture':{'index':0}}}],'textures':[{'source':0}],"
+                     "'images':[{'uri':'r.png'}]")));
   Editing editing(folder_ / "m.gltf");
   const auto hasMap = [&] { return editing.now().materials[0].roughnessMap != kNoTexture; };
   EXPECT_TRUE(hasMap());

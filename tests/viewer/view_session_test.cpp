@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/run_command.h"
+#include "io/gltf_files.h"
 #include "output/open_and_warn.h"
 
 namespace whit::view {
@@ -190,34 +191,17 @@ TEST_F(Sessions, CloseDismissesAnErrorAndThenGivesUpReading) {
 }
 
 // A triangle that two animations move.
-std::string writeTwoAnimations(const std::string& file) {
-  const auto animation = [](const std::string& name) {
-    return R"({"name": ")" + name + R"(", "samplers": [{"input": 1, "output": 2}],
-      "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]})";
-  };
-
-  // Two times and two translations follow the three positions.
-  std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-      "min": [0, 0, 0], "max": [1, 1, 0]},
-      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR",
-      "min": [0], "max": [1]},
-      {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36,
-      "byteLength": 8}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}],
-    "buffers": [{"byteLength": 68, "uri": "data:application/octet-stream;base64,)"
-                      << "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAA"
-                         "AAAAIA/AAAAAAAAAAA="
-                      << R"("}],
-    "animations": [)" << animation("walk")
-                      << ", " << animation("run") << "]}";
-  return file;
+std::string twoAnimations() {
+  GltfBuilder b;
+  const std::string moves = b.animation("translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  return asJson(b.json(oneMesh(primitive(b.positions(kTriangleXyz))) +
+                       b.played(b.named("walk", moves) + "," + b.named("run", moves))));
 }
 
 TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   options_.common.load.instant.plays = true;
-  options_.scene = writeTwoAnimations(folder_ / "m.gltf");
+  options_.scene = folder_ / "m.gltf";
+  save("m.gltf", twoAnimations());
   begin(openAndWarn(options_.scene, options_.common, nullptr));
   session_->act("play");
   settle();
