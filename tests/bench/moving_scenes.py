@@ -37,30 +37,18 @@ def hovering(count):
                        "transform": {"translate": [0, -1, 0]}}] + items}
 
 
-class Gltf:
-    """The data of a glTF file, as one buffer."""
-
-    def __init__(self):
-        self.data, self.views, self.accessors = b"", [], []
-
-    def add(self, numbers, code, component, kind, count, **more):
-        self.data += b"\0" * (-len(self.data) % 4)
-        packed = struct.pack(f"<{len(numbers)}{code}", *numbers)
-        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed)})
-        self.data += packed
-        self.accessors.append({"bufferView": len(self.views) - 1, "componentType": component,
-                               "type": kind, "count": count, **more})
-        return len(self.accessors) - 1
-
-    def document(self, **members):
-        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-        return {"asset": {"version": "2.0"}, "bufferViews": self.views,
-                "accessors": self.accessors,
-                "buffers": [{"byteLength": len(self.data), "uri": uri}], **members}
-
-
 def swaying(triangles):
     """A tube that stands on a chain of joints, each of which turns; two joints hold a vertex."""
+    data, views, accessors = bytearray(), [], []
+
+    def add(numbers, code, component, kind, count, **more):
+        packed = struct.pack(f"<{len(numbers)}{code}", *numbers)
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(packed)})
+        data.extend(packed)
+        accessors.append({"bufferView": len(views) - 1, "componentType": component, "type": kind,
+                          "count": count, **more})
+        return len(accessors) - 1
+
     around = 100
     rings = triangles // (2 * around) + 1
     positions, normals, joints, weights, indices = [], [], [], [], []
@@ -74,32 +62,34 @@ def swaying(triangles):
             normals += [x, 0, z]
             joints += [joint, joint + 1, 0, 0]
             weights += [1 - share, share, 0, 0]
-    for ring in range(rings - 1):
-        for i in range(around):
-            a, b = ring * around + i, ring * around + (i + 1) % around
-            indices += [a, a + around, b, b, a + around, b + around]
-    file, count = Gltf(), rings * around
-    attributes = {
-        "POSITION": file.add(positions, "f", 5126, "VEC3", count, min=[-1, 0, -1],
+            if ring < rings - 1:
+                a, b = ring * around + i, ring * around + (i + 1) % around
+                indices += [a, a + around, b, b, a + around, b + around]
+
+    count = rings * around
+    attributes = {"POSITION": add(positions, "f", 5126, "VEC3", count, min=[-1, 0, -1],
                              max=[1, JOINTS, 1]),
-        "NORMAL": file.add(normals, "f", 5126, "VEC3", count),
-        "JOINTS_0": file.add(joints, "H", 5123, "VEC4", count),
-        "WEIGHTS_0": file.add(weights, "f", 5126, "VEC4", count)}
-    corners = file.add(indices, "I", 5125, "SCALAR", len(indices))
+                  "NORMAL": add(normals, "f", 5126, "VEC3", count),
+                  "JOINTS_0": add(joints, "H", 5123, "VEC4", count),
+                  "WEIGHTS_0": add(weights, "f", 5126, "VEC4", count)}
+    corners = add(indices, "I", 5125, "SCALAR", len(indices))
     inverse = [x for k in range(JOINTS) for x in [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -k, 0, 1]]
-    bound = file.add(inverse, "f", 5126, "MAT4", JOINTS)
-    times = file.add([0, 4], "f", 5126, "SCALAR", 2, min=[0], max=[4])
+    bound = add(inverse, "f", 5126, "MAT4", JOINTS)
+    times = add([0, 4], "f", 5126, "SCALAR", 2, min=[0], max=[4])
     sine, cosine = math.sin(0.05), math.cos(0.05)
-    turns = file.add([0, 0, -sine, cosine, 0, 0, sine, cosine], "f", 5126, "VEC4", 2)
-    bones = [{"translation": [0, 1 if k else 0, 0], "children": [k + 2]} for k in range(JOINTS)]
-    del bones[-1]["children"]
-    channels = [{"sampler": 0, "target": {"node": k + 1, "path": "rotation"}}
-                for k in range(JOINTS)]
-    return file.document(
-        meshes=[{"primitives": [{"attributes": attributes, "indices": corners}]}],
-        skins=[{"joints": list(range(1, JOINTS + 1)), "inverseBindMatrices": bound}],
-        nodes=[{"mesh": 0, "skin": 0}] + bones, scenes=[{"nodes": [0, 1]}], scene=0,
-        animations=[{"samplers": [{"input": times, "output": turns}], "channels": channels}])
+    poses = add([0, 0, -sine, cosine, 0, 0, sine, cosine], "f", 5126, "VEC4", 2)
+
+    bones = range(1, JOINTS + 1)
+    nodes = [{"translation": [0, 1 if k > 1 else 0, 0], "children": [k + 1]} for k in bones]
+    del nodes[-1]["children"]
+    channels = [{"sampler": 0, "target": {"node": k, "path": "rotation"}} for k in bones]
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": uri}],
+            "bufferViews": views, "accessors": accessors,
+            "meshes": [{"primitives": [{"attributes": attributes, "indices": corners}]}],
+            "skins": [{"joints": list(bones), "inverseBindMatrices": bound}],
+            "nodes": [{"mesh": 0, "skin": 0}] + nodes, "scenes": [{"nodes": [0, 1]}], "scene": 0,
+            "animations": [{"samplers": [{"input": times, "output": poses}], "channels": channels}]}
 
 
 def numbers(text):

@@ -41,18 +41,13 @@ std::string plyOf(double share) {
 // A triangle that sways, seen by a camera of its own.
 std::string gltfOf(double share) {
   GltfBuilder b;
-  const std::string corners = b.positions(kTriangleXyz);
-  const std::string times = b.add<float>("SCALAR", {0, 1, 2}, 0, ",'min':[0],'max':[2]");
-  std::ostringstream text;
-  text << std::setprecision(17) << R"("nodes": [{"translation": [)" << share * kAway[0] - 0.5
-       << ",0," << share * kAway[2]
-       << R"(], "children": [1, 2]}, {"mesh": 0}, {"camera": 0, "translation": [0.5, 0.5, 4]}],
-    "scenes": [{"nodes": [0]}], "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5}}],
-    "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
-      "samplers": [{"input": )"
-       << times << R"(, "output": )" << corners << R"(}]}], "meshes": [{"primitives": [)"
-       << primitive(corners) << "]}]";
-  return asJson(b.json(text.str()));
+  return asJson(b.json(joined(
+      "'nodes':[{'translation':[", share * kAway[0] - 0.5, ",0,", share * kAway[2],
+      "],'children':[1,2]},{'mesh':0},{'camera':0,'translation':[0.5,0.5,4]}],'scenes':[{'nodes':"
+      "[0]}],'cameras':[{'type':'perspective','perspective':{'yfov':0.5}}],'meshes':[{"
+      "'primitives':[",
+      primitive(b.positions(kTriangleXyz)), "]}]",
+      b.played(b.animation("translation", {0, 1, 2}, kTriangleXyz, 1)))));
 }
 
 struct Format {

@@ -9,22 +9,11 @@ namespace {
 // A triangle that rises, and one that shrinks away to nothing.
 std::string movingModel() {
   GltfBuilder b;
-  // The length of an animation is the largest of its times, as the file says.
-  const std::string times = b.add<float>("SCALAR", {0, 2}, 0, ",'min':[0],'max':[2]");
-  const std::string shown = primitive(b.positions(kTriangleXyz)),
-                    up = b.positions({0, 0, 0, 0, 2, 0}), away = b.positions({1, 1, 1, 0, 0, 0});
-  const auto channel = [](int i, const std::string& path) {
-    return joined("{'sampler':", i, ",'target':{'node':", i, ",'path':'", path, "'}}");
-  };
-  const auto sampler = [&](const std::string& output) {
-    return "{'input':" + times + ",'output':" + output + "}";
-  };
-
-  return asJson(b.json(joined("'meshes':[{'primitives':[", shown,
-                              "]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[2,0,0]}],"
-                              "'animations':[{'name':'up','channels':[",
-                              channel(0, "translation"), ",", channel(1, "scale"), "],'samplers':[",
-                              sampler(up), ",", sampler(away), "]}]")));
+  const std::string up = b.animation(
+      {{"translation", {0, 2}, {0, 0, 0, 0, 2, 0}}, {"scale", {0, 2}, {1, 1, 1, 0, 0, 0}, 1}});
+  return asJson(b.json("'meshes':[{'primitives':[" + primitive(b.positions(kTriangleXyz)) +
+                       "]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[2,0,0]}]" +
+                       b.played(b.named("up", up))));
 }
 
 class Motion : public TinySceneTest {
@@ -35,16 +24,17 @@ class Motion : public TinySceneTest {
 
 TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
   struct Film {
-    std::string scene, frames;
+    std::string line, frames;
     int frame;
   };
-  for (const Film& film : {Film{"moving.gltf --fps 2 --size 64x40", "0..4", 3},
-                           Film{"orrery --size 32x20", "40..60", 57}}) {
-    SCOPED_TRACE(film.scene);
-    const std::string line = "render " + film.scene, at = std::to_string(film.frame);
-    succeed(line + " -o film#.exr --threads 2 --frames " + film.frames);
-    succeed(line + " -o alone#.exr --threads 1 --frames " + at);
-    succeed(line + " -o many#.exr --threads 8 --frames " + at);
+  for (const Film& film : {Film{"render moving.gltf --fps 2 --size 64x40", "0..4", 3},
+                           Film{"render orrery --size 32x20", "40..60", 57},
+                           Film{"turntable moving.gltf --count 5 --size 24x16", "0..4", 1}}) {
+    SCOPED_TRACE(film.line);
+    const std::string at = std::to_string(film.frame);
+    succeed(film.line + " -o film#.exr --threads 2 --frames " + film.frames);
+    succeed(film.line + " -o alone#.exr --threads 1 --frames " + at);
+    succeed(film.line + " -o many#.exr --threads 8 --frames " + at);
 
     const std::string whole = bytesOf("film" + at + ".exr");
     EXPECT_NE(valuesOf("film" + at + ".exr"), valuesOf(formatted("film%d.exr", film.frame - 1)));

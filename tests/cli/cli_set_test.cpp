@@ -9,7 +9,7 @@ class Set : public TinySceneTest {};
 
 TEST_F(Set, ImagesTellOfItAndResumingKnows) {
   const std::string line =
-      "render tiny.json -o a.exr --resume --set /materials/mirror/mirror=0 --set /size=";
+      "render tiny.json -o a.exr --resume --set=/materials/mirror/mirror=0 --set /size=";
   succeed(line + "[40,20]");
   EXPECT_EQ(metadataOf("a.exr")["set"], "/materials/mirror/mirror=0\n/size=[40,20]");
   EXPECT_TRUE(keeps("a.exr", line + "[40,20]"));

@@ -88,6 +88,41 @@ class GltfBuilder {
   std::string positions(const std::vector<float>& xyz) { return add("VEC3", xyz); }
   std::string indices(const std::vector<std::uint16_t>& i) { return add("SCALAR", i); }
 
+  // What an animation does to a node: the values of a path at some times. `rest` has further
+  // members of the sampler.
+  struct Moved {
+    std::string path;
+    std::vector<float> times, to;
+    int node = 0;
+    std::string rest = {};
+  };
+  std::string animation(const std::vector<Moved>& all) {
+    static const std::map<std::string, std::string> kTypes{
+        {"translation", "VEC3"}, {"rotation", "VEC4"}, {"scale", "VEC3"}, {"weights", "SCALAR"}};
+    std::string samplers, channels;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& [path, times, to, node, rest] = all[i];
+      const std::string input = add(
+          "SCALAR", times, 0, joined(",'min':[", times.front(), "],'max':[", times.back(), "]"));
+      addItem(samplers,
+              joined("{'input':", input, ",'output':", floats(kTypes.at(path), to), rest, "}"));
+      addItem(channels,
+              joined("{'sampler':", i, ",'target':{'node':", node, ",'path':'", path, "'}}"));
+    }
+    return "{'samplers':[" + samplers + "],'channels':[" + channels + "]}";
+  }
+  std::string animation(const std::string& path, const std::vector<float>& times,
+                        const std::vector<float>& to, int node = 0, const std::string& rest = "") {
+    return animation({{path, times, to, node, rest}});
+  }
+
+  static std::string named(const std::string& name, std::string animation) {
+    return animation.insert(1, "'name':'" + name + "',");
+  }
+  static std::string played(const std::string& animations) {
+    return ",'animations':[" + animations + "]";
+  }
+
   // `members` are those of the root object besides asset, buffers, views and accessors.
   std::string json(const std::string& members, bool binary = false) const {
     std::string text = "{'asset':{'version':'2.0'}";

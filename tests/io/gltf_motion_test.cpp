@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bake/edit_scene.h"
+#include "farthest_in_picture.h"
 #include "gltf_files.h"
 #include "make/turntable.h"
 
@@ -11,24 +12,6 @@ namespace {
 
 class GltfMotion : public GltfTest {
  protected:
-  // Returns an animation of a node. `rest` has further members of its sampler.
-  std::string animation(const std::string& path, const std::vector<float>& times,
-                        const std::vector<float>& to, int node = 0, const std::string& rest = "") {
-    static const std::map<std::string, std::string> kTypes{
-        {"translation", "VEC3"}, {"rotation", "VEC4"}, {"scale", "VEC3"}, {"weights", "SCALAR"}};
-    const std::string input =
-        add("SCALAR", times, 0, joined(",'min':[", times.front(), "],'max':[", times.back(), "]"));
-    return joined("{'samplers':[{'input':", input, ",'output':", floats(kTypes.at(path), to), rest,
-                  "}],'channels':[{'sampler':0,'target':{'node':", node, ",'path':'", path,
-                  "'}}]}");
-  }
-  std::string named(const std::string& name, std::string animation) {
-    return animation.insert(1, "'name':'" + name + "',");
-  }
-
-  static std::string played(const std::string& animations) {
-    return ",'animations':[" + animations + "]";
-  }
   // Returns a file that shows a triangle whose node the animations move.
   std::string moved(const std::string& animations) {
     return json(oneMesh(triangle()) + played(animations));
@@ -117,7 +100,6 @@ TEST_F(GltfMotion, CamerasAndLightsMove) {
 // Returns how far the corners reach in the picture at 60 times from `begin` to `end`, or once if
 // they are the same.
 double farthestInFilm(Scene& scene, const Camera& camera, double begin, double end) {
-  const double aspect = static_cast<double>(scene.width) / scene.height;
   const int times = begin == end ? 1 : 60;
   std::vector<Vec3d> corners;
   for (int k = 0; k < times; ++k) {
@@ -131,7 +113,7 @@ double farthestInFilm(Scene& scene, const Camera& camera, double begin, double e
       }
     }
   }
-  return farthestInPicture(camera, aspect, corners);
+  return farthestInPicture(makeCameraFrame(camera, scene.width, scene.height), corners);
 }
 
 TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {

@@ -65,11 +65,6 @@ class Cameras(unittest.TestCase):
         assert_allclose(camera.k, np.array([[2, 0, 0.5], [0, 3, 1], [0, 0, 1]]) @ K, atol=1e-12)
         positions_of_wall(camera)
 
-    def test_a_depth_picture_becomes_points(self):
-        points = positions_of_wall(CAMERA)
-        assert_allclose(points[..., 2], 0, atol=2e-5)
-        assert_allclose(CAMERA.project(points), PIXELS, atol=1e-3)
-
     def test_far_models_are_seen_in_coordinates_of_their_file(self):
         far = np.array([4000000.1, 0, 500000.2])
         with temporary_folder():

@@ -181,28 +181,5 @@ TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
   expectNear(seen(scene, rayFrom(256, {0, 1.0 / kTexels}, 1003.3)), floorColor(scene, 2), 1e-9);
 }
 
-TEST(Trilinear, OneColorStaysWhatItIs) {
-  const Scene scene = floorOf(makeTexture(
-      TexelFormat::color, 5, 3, std::vector<std::uint32_t>(15, 300u | 17u << 10 | 1023u << 20)));
-  const auto light = [](double code) { return code * code / (1023.0 * 1023.0); };
-  for (const double distance : {1.0, 50.0, 777.0, 1e5}) {
-    expectNear(seen(scene, rayFrom(distance, {0, 0.01})), {light(300), light(17), 1});
-  }
-}
-
-TEST(Trilinear, ADistantChequerboardIsItsMean) {
-  std::vector<std::uint32_t> texels;
-  for (int i = 0; i < kTexels * kTexels; ++i) {
-    texels.push_back((i / kTexels + i) % 2 == 0 ? 0x3fffffffu : 0u);
-  }
-
-  const Scene scene = floorOf(makeTexture(TexelFormat::color, kTexels, kTexels, texels));
-  // Half of the light, up to half a code of its square root, in each of three channels.
-  for (const double x : {3.3, 4.0, 4.5, 5.2}) {
-    expectNear(seen(scene, rayFrom(200, {0, 1.0 / kTexels}, x)), RgbD(0.5),
-               std::sqrt(3.0) * 0.5 / 1023 * 1.5);
-  }
-}
-
 }  // namespace
 }  // namespace whit::reference

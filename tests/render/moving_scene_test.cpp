@@ -1,5 +1,6 @@
 // Scenes that move: pictures against closed forms. That pictures depend on the time alone is tested
-// by Library.ScenesMoveAndComeBack.
+// by Library.ScenesMoveAndComeBack, and that they are the same for any division of the work by the
+// image hashes of orrery.
 #include "bake/edit_scene.h"
 
 #include <gtest/gtest.h>
@@ -33,12 +34,6 @@ struct MovingPicture {
   Scene scene;
   Renderer renderer;
 };
-
-TEST(MovingScene, PicturesDoNotDependOnThreadsOrPackets) {
-  LoadOptions options;
-  options.instant.seconds = 3.1;
-  expectBitsWhateverTheQueues(repaired(described("orrery", options)), smallOptions());
-}
 
 // Returns a builder whose only camera sees eight by eight units about the origin in parallel rays,
 // and whose instances may follow a motion.

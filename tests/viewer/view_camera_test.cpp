@@ -4,17 +4,17 @@
 
 #include "engine/open_scene.h"
 #include "pi.h"
+#include "rounding.h"
 #include "viewer/session/camera_control.h"
 
 namespace whit::view {
 namespace {
 
 constexpr double kQuarterTurn = kPi / 2 / kRadiansPerPixel;  // pixels dragged
-constexpr float kTolerance = 1e-5f;                          // a few roundings of floats of size 5
+constexpr double kTolerance = 1e-5f;                         // a few roundings of floats of size 5
 
-void expectNear(const Vec3f& a, const Vec3f& b, float tolerance = kTolerance) {
-  EXPECT_LE(maxComponent(abs(a - b)), tolerance)
-      << a.x << ',' << a.y << ',' << a.z << " instead of " << b.x << ',' << b.y << ',' << b.z;
+void expectNear(const Vec3f& got, const Vec3d& wanted) {
+  whit::expectNear(Vec3d(got), wanted, kTolerance);
 }
 
 // A model in a box of sides 2 about the origin.
@@ -46,35 +46,23 @@ struct Motion {
   const char* name;
   CameraMotion motion;
   double seconds;
-  Vec3f eye, at;  // where the camera ends
+  Vec3d eye, at;  // where the camera ends
 };
 
 // A room's camera moves by one unit where it walks for half a second.
 constexpr double kWalk = 0.5;
 const Motion kInRooms[] = {
     {"forward", {.forward = 1}, kWalk, {0, 0, 4}, {0, 0, -1}},
-    {"fast",
-     {.forward = 1, .fast = true},
-     kWalk,
-     {0, 0, 5 - static_cast<float>(kFastFactor)},
-     {0, 0, -static_cast<float>(kFastFactor)}},
+    {"fast", {.forward = 1, .fast = true}, kWalk, {0, 0, 5 - kFastFactor}, {0, 0, -kFastFactor}},
     {"right", {.right = 1}, kWalk, {1, 0, 5}, {1, 0, 0}},
     {"down", {.up = -1}, kWalk, {0, -1, 5}, {0, -1, 0}},
     {"dragged to the right", {.turnX = kQuarterTurn}, 0, {0, 0, 5}, {5, 0, 5}},
     {"arrow to the left", {.turnRight = -1}, kPi / 2 / kRadiansPerSecond, {0, 0, 5}, {-5, 0, 5}},
-    {"wheel",
-     {.wheel = 2},
-     0,
-     {0, 0, static_cast<float>(5 - 2 * kNotchSeconds * 2)},
-     {0, 0, static_cast<float>(-2 * kNotchSeconds * 2)}},
+    {"wheel", {.wheel = 2}, 0, {0, 0, 5 - 2 * kNotchSeconds * 2}, {0, 0, -2 * kNotchSeconds * 2}},
 };
 const Motion kAboutModels[] = {
     {"orbit", {.turnX = kQuarterTurn}, 0, {-5, 0, 0}, {0, 0, 0}},
-    {"wheel",
-     {.wheel = 2},
-     0,
-     {0, 0, static_cast<float>(5 * kZoomFactor * kZoomFactor)},
-     {0, 0, 0}},
+    {"wheel", {.wheel = 2}, 0, {0, 0, 5 * kZoomFactor* kZoomFactor}, {0, 0, 0}},
 };
 
 void expectMoved(const CameraControl& control, const Motion& by) {
@@ -146,12 +134,12 @@ TEST(CameraControl, TheWheelNeitherLosesAModelNorEntersIt) {
 // its distance.
 TEST(CameraControl, PansWithThePointer) {
   // The camera is 5 away and has half a field of view of 22.5 degrees.
-  const float height = 2 * 5 * std::tan(22.5f * static_cast<float>(kPi) / 180);
+  const double height = 2 * 5 * std::tan(22.5 * kPi / 180);
   const Motion pan{"pan",
                    {.panX = 0.1, .panY = 0.05},
                    0,
-                   {-0.1f * height, 0.05f * height, 5},
-                   {-0.1f * height, 0.05f * height, 0}};
+                   {-0.1 * height, 0.05 * height, 5},
+                   {-0.1 * height, 0.05 * height, 0}};
   expectMoved(aroundModel(), pan);
   expectMoved(CameraControl(Camera(), 1), pan);
 }
@@ -182,7 +170,7 @@ TEST(CameraControl, FitsAModel) {
     control.fit(aspect);
 
     const double away = 1 + std::max(1.0, 1 / aspect) / std::tan(kPi / 8);
-    expectNear(control.camera().eye, {0, 0, static_cast<float>(away)});
+    expectNear(control.camera().eye, {0, 0, away});
     expectNear(control.camera().at, {0, 0, 0});
   }
 }

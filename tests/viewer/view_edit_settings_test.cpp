@@ -248,13 +248,12 @@ TEST_F(EditedModel, IsEditedInPlaceAsScenesAre) {
 TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
   writePng(folder_ / "r.png", DisplayImage{2, 1, {0, 50, 0, 255, 0, 200, 0, 255}}, {});
   GltfBuilder b;
-  const std::string corners = b.positions(kTriangleXyz);
-  const std::string uvs = b.floats("VEC2", {0, 0, 1, 0, 0, 1});
+  const std::string uvs = ",'TEXCOORD_0':" + b.floats("VEC2", {0, 0, 1, 0, 0, 1});
   save("m.gltf",
-       asJson(b.json(oneMesh(primitive(corners, ",'TEXCOORD_0':" + uvs, ",'material':0")) +
-                     R"(,'materials':[{'name':'m','pbrMetallicRoughness':{
-                     'metallicRoughnessTexture':{'index':0}}}],
-                     'textures':[{'source':0}],'images':[{'uri':'r.png'}])")));
+       asJson(b.json(oneMesh(primitive(b.positions(kTriangleXyz), uvs, ",'material':0")) +
+                     ",'materials':[{'name':'m','pbrMetallicRoughness':{"
+                     "'metallicRoughnessTexture':{'index':0}}}],'textures':[{'source':0}],"
+                     "'images':[{'uri':'r.png'}]")));
   Editing editing(folder_ / "m.gltf");
   const auto hasMap = [&] { return editing.now().materials[0].roughnessMap != kNoTexture; };
   EXPECT_TRUE(hasMap());

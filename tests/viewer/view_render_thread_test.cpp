@@ -148,6 +148,9 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
   request_.options.size = {240, 160};
   const TracedFrame frame = traced(thread);
   EXPECT_EQ(costOf("depth", frame.costs).other, "0");
+  // The frames that are measured see what the picture shows.
+  EXPECT_GT(costOf("depth", frame.costs).now.of(RayKind::reflection).rays, 0u);
+  EXPECT_GT(costOf("shadows", frame.costs).now.of(RayKind::shadow).rays, 0u);
   for (const KnobCost& cost : frame.costs) EXPECT_NE(cost.name, "glossy");  // the scene has none
 
   request_.measureKnobs = false;

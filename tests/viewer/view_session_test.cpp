@@ -193,21 +193,15 @@ TEST_F(Sessions, CloseDismissesAnErrorAndThenGivesUpReading) {
 // A triangle that two animations move.
 std::string twoAnimations() {
   GltfBuilder b;
-  const std::string shown = primitive(b.positions(kTriangleXyz));
-  const std::string times = b.add<float>("SCALAR", {0, 1}, 0, ",'min':[0],'max':[1]");
-  const std::string places = b.positions({0, 0, 0, 1, 0, 0});
-  const auto animation = [&](const std::string& name) {
-    return "{'name':'" + name + "','samplers':[{'input':" + times + ",'output':" + places +
-           "}],'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]}";
-  };
-  return asJson(b.json(oneMesh(shown) + ",'animations':[" + animation("walk") + "," +
-                       animation("run") + "]"));
+  const std::string moves = b.animation("translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  return asJson(b.json(oneMesh(primitive(b.positions(kTriangleXyz))) +
+                       b.played(b.named("walk", moves) + "," + b.named("run", moves))));
 }
 
 TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   options_.common.load.instant.plays = true;
-  save("m.gltf", twoAnimations());
   options_.scene = folder_ / "m.gltf";
+  save("m.gltf", twoAnimations());
   begin(openAndWarn(options_.scene, options_.common, nullptr));
   session_->act("play");
   settle();

@@ -2,21 +2,17 @@
 #include "viewer/panel.h"
 
 #include "has_text.h"
+#include "io/scene_files.h"
 #include "render_thread_fixture.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {
 namespace {
 
-Timeline timelineOfTwoSeconds() {
+TEST(Timeline, PlaysByTheClockAndBeginsAgain) {
   Timeline timeline;
   timeline.there = timeline.playing = true;
   timeline.length = 2;
-  return timeline;
-}
-
-TEST(Timeline, PlaysByTheClockAndBeginsAgain) {
-  Timeline timeline = timelineOfTwoSeconds();
   EXPECT_TRUE(timeline.step(1.5));
   EXPECT_EQ(timeline.time(), 1.5);
   EXPECT_TRUE(timeline.step(1));
@@ -54,26 +50,24 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
 }
 
 // A ball that rises, a lamp that sinks, a camera that moves aside.
-void writeMovingScene(const cli::TemporaryFolder& folder) {
+std::string movingScene() {
   const auto keys = [](const std::string& to) {
-    return "\"motion\": {\"keys\": [{\"time\": 0}, {\"time\": 2, \"translate\": " + to + "}]}";
+    return "'motion': {'keys': [{'time': 0}, {'time': 2, 'translate': " + to + "}]}";
   };
-  std::ofstream(folder / "tiny.json")
-      << "{\"whit\": 1, \"size\": [48, 32], \"cameras\": {\"front\": {\"eye\": [0, 2, 6], \"at\": "
-         "[0, "
-         "1, 0], \"fov\": 40, "
-      << keys("[2, 0, 0]") << "}}, \"lights\": [{\"position\": [3, 6, 4], \"intensity\": 60, "
-      << keys("[0, -3, 0]")
-      << "}], \"materials\": {\"red\": {\"diffuse\": [0.5, 0, 0]}}, \"scene\": [{\"shape\": "
-         "\"quad\", "
-         "\"width\": 8, \"depth\": 8}, {\"shape\": \"sphere\", \"material\": \"red\", "
-      << keys("[0, 2, 0]") << "}]}";
+  return asJson(
+      "{'whit': 1, 'size': [48, 32], 'materials': {'red': {'diffuse': [0.5, 0, 0]}}, 'cameras': "
+      "{'front': {'eye': [0, 2, 6], 'at': [0, 1, 0], 'fov': 40, " +
+      keys("[2, 0, 0]") + "}}, 'lights': [{'position': [3, 6, 4], 'intensity': 60, " +
+      keys("[0, -3, 0]") +
+      "}], 'scene': [{'shape': 'quad', 'width': 8, 'depth': 8}, {'shape': 'sphere', 'material': "
+      "'red', " +
+      keys("[0, 2, 0]") + "}]}");
 }
 
 class MovingPictures : public RenderThreadTest {
  protected:
   MovingPictures() {
-    writeMovingScene(folder_);
+    save("tiny.json", movingScene());
     common_.load.instant.plays = true;
     open(name_);
   }
@@ -105,7 +99,7 @@ TEST_F(MovingPictures, KeepWhatWasEdited) {
 }
 
 TEST_F(Viewer, PlaysUntilItIsPaused) {
-  writeMovingScene(folder_);
+  save("tiny.json", movingScene());
   const Words lines =
       commandsOf(2,
                  "bare\nasked\nwait 58 frames\nkey Space\nwait 3 frames\nwait sharp\n"
@@ -125,14 +119,14 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
 // The bar of the time is there without a panel. A click on its button pauses, and then the picture
 // gets sharp. Dear ImGui 1.90 takes a click of a script only where the pointer has rested.
 TEST_F(Viewer, TheTimeBarPauses) {
-  writeMovingScene(folder_);
+  save("tiny.json", movingScene());
   const Words lines = commandsOf(
       1, "asked\npoint 135 272\nwait 30 frames\nclick 135 272\nwait sharp\nkey C\n", "400x300");
   EXPECT_TRUE(hasText(lines[0], " --time "));
 }
 
 TEST_F(Viewer, AScenePausedAtATimeShowsThat) {
-  writeMovingScene(folder_);
+  save("tiny.json", movingScene());
   EXPECT_EQ(commandsOf(1, "asked\nwait sharp\nkey C\n", "240x160", {"--time", "1.50390625"}),
             Words{"whit render tiny.json -o tiny.png --size=240x160 --time 1.50390625"});
 }
