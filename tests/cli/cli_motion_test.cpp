@@ -39,6 +39,7 @@ TEST_F(Motion, AFrameIsTheSameAloneAndInAFilm) {
     const std::string whole = bytesOf("film" + at + ".exr");
     EXPECT_NE(valuesOf("film" + at + ".exr"), valuesOf(formatted("film%d.exr", film.frame - 1)));
     EXPECT_TRUE(whole == bytesOf("alone" + at + ".exr"));
+    EXPECT_FALSE(exists(formatted("alone%d.exr", film.frame - 1)));
     EXPECT_EQ(valuesOf("film" + at + ".exr"), valuesOf("many" + at + ".exr"));
   }
 }
