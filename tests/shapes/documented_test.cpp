@@ -21,13 +21,13 @@ namespace {
 // Gives every parameter its default, and records the parameters that were queried.
 class RecordingParameters : public ShapeParameters {
  public:
-  double number(const std::string& key, double fallback, double, double) override {
+  double number(const std::string& key, double fallback, double low, double high) override {
+    EXPECT_TRUE(fallback >= low && fallback <= high) << key;
     note(key, text(fallback));
     return fallback;
   }
-  int integer(const std::string& key, int fallback, int, int) override {
-    note(key, std::to_string(fallback));
-    return fallback;
+  int integer(const std::string& key, int fallback, int low, int high) override {
+    return static_cast<int>(number(key, fallback, low, high));
   }
   bool flag(const std::string& key, bool fallback) override {
     note(key, fallback ? "true" : "false");
@@ -39,6 +39,7 @@ class RecordingParameters : public ShapeParameters {
   }
   std::string word(const std::string& key, const std::string& fallback,
                    const std::vector<std::string>& choices) override {
+    EXPECT_TRUE(contains(choices, fallback)) << key;
     std::string others;
     for (const std::string& choice : choices) {
       if (choice != fallback) others += " or " + choice;
