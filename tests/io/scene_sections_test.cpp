@@ -343,9 +343,10 @@ TEST_F(SceneSections, MaterialsOfMoreThanAllLightAreNamed) {
 TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
   saveImage("a.tga", {"8080ff"});
   const SceneDescription scene = loadMembers(
-      "'textures': {'t': {'image': 'a.tga', 'wrap': ['clamp', 'mirror']},'same': {'image': "
-      "'a.tga', 'wrap': ['clamp', 'mirror']}},'materials': {'m': {'diffuseMap': 't', 'normalMap': "
-      "'t'},'n': {'diffuseMap': 'same'}}");
+      "'textures': {'t': {'image': 'a.tga', 'wrap': ['clamp', 'mirror']}, 'same': {'image': "
+      "'a.tga', 'wrap': ['clamp', 'mirror']}, 'data': {'image': 'a.tga', 'wrap': ['clamp', "
+      "'mirror'], 'as': 'data'}}, 'materials': {'m': {'diffuseMap': 't', 'normalMap': 't'}, 'n': "
+      "{'diffuseMap': 'same', 'roughnessMap': 'data'}}");
   ASSERT_EQ(scene.textures.size(), 2u);  // the same image and format only once
 
   const Material& m = scene.materials[0];
