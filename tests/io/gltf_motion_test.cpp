@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bake/edit_scene.h"
+#include "farthest_in_picture.h"
 #include "gltf_files.h"
 #include "make/turntable.h"
 
@@ -117,7 +118,6 @@ TEST_F(GltfMotion, CamerasAndLightsMove) {
 // Returns how far the corners reach in the picture at 60 times from `begin` to `end`, or once if
 // they are the same.
 double farthestInFilm(Scene& scene, const Camera& camera, double begin, double end) {
-  const double aspect = static_cast<double>(scene.width) / scene.height;
   const int times = begin == end ? 1 : 60;
   std::vector<Vec3d> corners;
   for (int k = 0; k < times; ++k) {
@@ -131,7 +131,7 @@ double farthestInFilm(Scene& scene, const Camera& camera, double begin, double e
       }
     }
   }
-  return farthestInPicture(camera, aspect, corners);
+  return farthestInPicture(makeCameraFrame(camera, scene.width, scene.height), corners);
 }
 
 TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {

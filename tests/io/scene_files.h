@@ -11,7 +11,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -292,25 +291,6 @@ inline std::vector<Rgb> colorsOf(const SceneDescription& scene, std::int32_t map
     colors.push_back(decodeColorTexel(texel));
   }
   return colors;
-}
-
-// Returns the largest distance of a point from the middle of the picture, relative to half of its
-// height and width, or infinity if a point lies behind the eye.
-inline double farthestInPicture(const Camera& camera, double aspect,
-                                const std::vector<Vec3d>& points) {
-  const Vec3d eye(camera.eye), forward = normalized(Vec3d(camera.at) - eye);
-  const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
-  const double half = std::tan(double{camera.fov} * kPi / 360);
-
-  double farthest = 0;
-  for (const Vec3d& point : points) {
-    const Vec3d way = point - eye;
-    const double depth = dot(way, forward) * half;
-    if (!(depth > 0)) return std::numeric_limits<double>::infinity();
-    farthest = std::max(
-        {farthest, std::abs(dot(way, right)) / (depth * aspect), std::abs(dot(way, up)) / depth});
-  }
-  return farthest;
 }
 
 }  // namespace whit

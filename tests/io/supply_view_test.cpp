@@ -1,5 +1,6 @@
 // The view, lights and sky that a model gets without a scene file, and the sky that the user
 // chooses.
+#include "farthest_in_picture.h"
 #include "gltf_files.h"
 #include "io/scene/scene_sections.h"
 #include "make/model_view.h"
@@ -323,8 +324,8 @@ TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
     for (const Vec3f& p : meshOf(scene).positions) {
       corners.push_back(scene.instances.at(0).toWorld.point(Vec3d(p)));
     }
-    const double aspect = static_cast<double>(size.width) / size.height;
-    const double farthest = farthestInPicture(scene.cameras.at(0), aspect, corners);
+    const CameraFrame frame = makeCameraFrame(scene.cameras.at(0), size.width, size.height);
+    const double farthest = farthestInPicture(frame, corners);
     EXPECT_LE(farthest, 1) << size.width;
     EXPECT_GT(farthest, 0.85) << size.width;
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "farthest_in_picture.h"
 #include "unit/scene_builder.h"
 
 namespace whit {

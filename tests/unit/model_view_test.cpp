@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "farthest_in_picture.h"
 #include "make/shapes/mesh_builder.h"
 #include "pi.h"
 #include "scene_builder.h"

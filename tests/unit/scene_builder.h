@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,21 +75,6 @@ inline Vec3d faceOf(const TriangleRecord& t) {
 }
 inline Vec3f normalOf(const NormalRecord& n, int i) {
   return {n.normal[3 * i], n.normal[3 * i + 1], n.normal[3 * i + 2]};
-}
-
-// Returns how far the farthest of the points lies from the middle of the picture, in halves of its
-// width or height. The points must lie before the camera.
-inline double farthestInPicture(const CameraFrame& frame, const std::vector<Vec3d>& points) {
-  double farthest = 0;
-  for (const Vec3d& point : points) {
-    const Vec3d way = point - frame.eye;
-    const double depth = dot(way, frame.forward);
-    EXPECT_GT(depth, 0);
-    const double x = dot(way, frame.right) / dot(frame.right, frame.right) / depth;
-    const double y = dot(way, frame.up) / dot(frame.up, frame.up) / depth;
-    farthest = std::max({farthest, 2 * std::abs(x) / frame.width, 2 * std::abs(y) / frame.height});
-  }
-  return farthest;
 }
 
 // Returns how often something of this kind was repaired.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "farthest_in_picture.h"
 #include "pi.h"
 #include "rounding.h"
 #include "scene_builder.h"
