@@ -2,17 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/option_table.h"
 #include "core/text.h"
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "make/shape.h"
+#include "source_files.h"
 #include "temporary_folder.h"
 
 namespace whit {
@@ -66,12 +67,7 @@ class RecordingParameters : public ShapeParameters {
   std::vector<std::string> listed_;
 };
 
-std::vector<std::string> lines() {
-  std::ifstream file(std::string(std::getenv("WHIT_SOURCE_DIR")) + "/scenes/README.md");
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
-  return lines;
-}
+std::vector<std::string> lines() { return split(sourceText("scenes/README.md"), '\n'); }
 
 // Returns the table's row of a shape or pattern, or an empty string.
 std::string rowOf(const std::string& name) {
