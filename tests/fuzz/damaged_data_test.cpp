@@ -65,12 +65,10 @@ std::string sceneWith(const fs::path& original, const TemporaryFolder& folder) {
     }
   }
 
-  // An image of high dynamic range becomes a sky, any other one a texture.
-  const bool sky = kind == ".hdr" || kind == ".exr";
+  // An image becomes a sky and a texture.
+  const std::string image = "{\"image\": \"" + name + "\"}";
   std::ofstream(folder / "s.json")
-      << "{\"whit\": 1, "
-      << (sky ? "\"sky\": {\"image\": \"" : "\"textures\": {\"t\": {\"image\": \"") << name
-      << (sky ? "\"}}" : "\"}}}");
+      << "{\"whit\": 1, \"sky\": " << image << ", \"textures\": {\"t\": " << image << "}}";
   return folder / "s.json";
 }
 

@@ -3,25 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "source_files.h"
 #include "verify/case.h"
 
 namespace whit::test {
 namespace {
 
 constexpr int kHighest = 83;
-
-std::string textOf(const std::string& path) {
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  const std::ifstream file((source ? std::string(source) : std::string(".")) + "/" + path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 TEST(Accounted, EveryNumberIsTested) {
   std::set<int> known;
@@ -44,7 +34,7 @@ TEST(Accounted, NamesAreUnique) {
 
 TEST(Accounted, TestsElsewhereAreThere) {
   for (const Accounted& a : kAccounted) {
-    const std::string test(a.test), file = textOf(std::string(a.file));
+    const std::string test(a.test), file = sourceText(std::string(a.file));
     const std::size_t dot = test.find('.');
     const std::string wanted = "(" + test.substr(0, dot) + ", " + test.substr(dot + 1) + ")";
     EXPECT_NE(file.find(wanted), std::string::npos) << a.file << " has no " << wanted;

@@ -1,6 +1,7 @@
 // Reading 8-bit and Radiance files: every sample's pixels are known from how its bytes were made.
 #include "image_samples.h"
 #include "io/files.h"
+#include "source_files.h"
 
 namespace whit {
 namespace {
@@ -63,7 +64,7 @@ TEST_F(ReadImage, JpegOfInks) {
   };
 
   const auto file = [](const std::string& name) {
-    return load(std::string(std::getenv("WHIT_SOURCE_DIR")) + "/tests/fuzz/corpus/jpeg/" + name);
+    return load(sourceFile("tests/fuzz/corpus/jpeg/" + name));
   };
 
   Bytes flat = file("inksFlat.jpg");

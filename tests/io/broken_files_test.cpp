@@ -25,8 +25,6 @@ TEST_F(BrokenFiles, Scenes) {
       {texture("http://" + kLong), "3 s.json#/textures/t/image*"},
       {texture(kLong), "4 s.json#/textures/t/image*"},
       {texture("$WHIT_DATA" + kLong), "3 s.json#/textures/t/image*"},
-      {"'scene': [{'model': 'none.ply'}]", "4 s.json#/scene/0/model*"},
-      {"'scene': [{'model': 'none.txt'}]", "3 s.json#/scene/0/model*"},
       {"'scene': [{'shape': '" + kLong + "'}]", "3 s.json#/scene/0/shape*"},
   });
 }

@@ -166,16 +166,13 @@ TEST_F(ObjFaces, MaterialsOfFaces) {
   expectWarned("material missing, gray instead");
 }
 
-TEST_F(ObjFaces, AModelAloneGetsLightsAndACamera) {
+TEST_F(ObjFaces, AModelAloneGetsLights) {
   const SceneDescription scene = loadObj(kSquare + "f 1 2 3 4\n");
   EXPECT_EQ(scene.name, "m");
-  EXPECT_EQ(scene.cameras.size(), 1u);
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_GT(scene.lights[0].position.y, 1);
   EXPECT_EQ(scene.lights[0].name, "supplied");
   EXPECT_EQ(scene.lights[1].name, "supplied fill");
-
-  EXPECT_EQ(bake(scene).cameras.size(), 1u);
 }
 
 // Colors follow the position, with a weight in between or not. They are in sRGB: code 188 of 255 is

@@ -6,12 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,6 +21,7 @@
 #include "pi.h"
 #include "rounding.h"
 #include "scene/texture.h"
+#include "source_files.h"
 #include "temporary_folder.h"
 
 namespace whit {
@@ -139,11 +137,7 @@ class SceneFileTest : public testing::Test {
 
   // Returns the bytes of a file of the fuzzers' corpus.
   static std::string corpusFile(const std::string& name) {
-    const char* source = std::getenv("WHIT_SOURCE_DIR");
-    const std::string path = std::string(source ? source : ".") + "/tests/fuzz/corpus/" + name;
-    std::ifstream in(path, std::ios::binary);
-    EXPECT_TRUE(in) << path;
-    return {std::istreambuf_iterator<char>(in), {}};
+    return sourceText("tests/fuzz/corpus/" + name);
   }
 
   // Settings may have ' in place of ", as files of JSON.

@@ -220,10 +220,10 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   };
   const Material x = materialOf(0, 0), y = materialOf(0, 1), other = materialOf(1, 0);
 
-  expectMembers(x, "{'diffuse': 0.5, 'specular': 0.5, 'emission': 2}");
+  expectExactly(x, "{'diffuse': 0.5, 'specular': 0.5, 'emission': 2}");
   EXPECT_NE(x.specularMap, kNoTexture);  // the file's own
-  expectMembers(y, "{'emission': 2, 'specular': 0}");
-  expectMembers(other, "{'emission': 0, 'diffuse': 1}");
+  expectExactly(y, "{'emission': 2, 'specular': 0}");
+  expectExactly(other, "{'emission': 0, 'diffuse': 1}");
   EXPECT_NE(other.diffuseMap, x.diffuseMap);
 
   // Names of materials and their members are checked.

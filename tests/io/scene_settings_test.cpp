@@ -1,8 +1,8 @@
 // --set: members of a scene's description that are given apart from its file.
 #include "io/scene/scene_settings.h"
 
+#include "noun_members.h"
 #include "scene/description.h"
-#include "scene_files.h"
 
 namespace whit {
 namespace {
@@ -40,11 +40,10 @@ TEST_F(SceneSettings, TakeThePlaceOfMembers) {
       with({"/lights/0/intensity=[1, 2, 3]", "/materials/floor={'roughness': 0.25}",
             "/materials/a~1b~0c=d/mirror=0.5", "/size/1=16"});
 
-  EXPECT_EQ(scene.lights[0].intensity, Rgb(1, 2, 3));
-  EXPECT_EQ(scene.lights[0].radius, 0.1f) << "not given";
-  EXPECT_EQ(scene.materials[0].roughness, 0.25f);
-  EXPECT_EQ(scene.materials[0].diffuse, Material().diffuse) << "the whole material was replaced";
-  EXPECT_EQ(scene.materials[1].mirror, Rgb(0.5f));
+  // The light keeps its radius, and the whole material is replaced.
+  expectExactly(scene.lights[0], "{'intensity': [1,2,3], 'radius': 0.1}");
+  expectExactly(scene.materials[0], "{'roughness': 0.25, 'diffuse': 0.8}");
+  expectExactly(scene.materials[1], "{'mirror': 0.5}");
   EXPECT_EQ(scene.height, 16);
 }
 
@@ -98,10 +97,8 @@ TEST_F(SceneSettings, OfAModel) {
   const SceneDescription scene =
       modelWith({"/materials/blue/mirror=0.5", "/lights/0/position=[1, 2, 3]", "/sky/color=0.1"});
 
-  EXPECT_EQ(scene.materials[0].mirror, Rgb(0.0f));
-  EXPECT_EQ(scene.materials[1].mirror, Rgb(0.5f));
-  EXPECT_EQ(scene.materials[1].diffuse, Rgb(0, 0, 1));
-
+  expectExactly(scene.materials[0], "{'mirror': 0}");
+  expectExactly(scene.materials[1], "{'mirror': 0.5, 'diffuse': [0,0,1]}");
   EXPECT_EQ(scene.lights[0].position, Vec3f(1, 2, 3));
   EXPECT_EQ(scene.lights[0].intensity, plain.lights[0].intensity) << "every bit is kept";
   EXPECT_EQ(scene.lights[0].radius, plain.lights[0].radius);

@@ -324,8 +324,8 @@ TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
     for (const Vec3f& p : meshOf(scene).positions) {
       corners.push_back(scene.instances.at(0).toWorld.point(Vec3d(p)));
     }
-    const double farthest =
-        farthestInPicture(makeCameraFrame(scene.cameras.at(0), size.width, size.height), corners);
+    const CameraFrame frame = makeCameraFrame(scene.cameras.at(0), size.width, size.height);
+    const double farthest = farthestInPicture(frame, corners);
     EXPECT_LE(farthest, 1) << size.width;
     EXPECT_GT(farthest, 0.85) << size.width;
   }

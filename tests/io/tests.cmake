@@ -1,5 +1,1 @@
 whit_tests(io whit_io whit_inspect)
-if(WHIT_HAS_MESHOPT)
-  target_compile_definitions(io_test PRIVATE WHIT_MESHOPT)
-  target_link_libraries(io_test PRIVATE ${WHIT_MESHOPT_LIBRARY})
-endif()

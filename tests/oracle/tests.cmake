@@ -7,5 +7,7 @@ target_compile_options(whit_oracle PRIVATE $<TARGET_PROPERTY:whit_flags,INTERFAC
 if(WHIT_SANITIZE)
   target_compile_options(whit_oracle PRIVATE -fno-sanitize=all)
 endif()
+find_package(nlohmann_json 3.11 REQUIRED)
+target_link_libraries(whit_oracle PRIVATE nlohmann_json::nlohmann_json)
 target_include_directories(whit_oracle PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 whit_tests(oracle whit_oracle whit_library whit_flags)

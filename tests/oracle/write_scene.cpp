@@ -1,11 +1,16 @@
 #include "oracle/write_scene.h"
 
-#include <concepts>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 namespace oracle {
+
+// Members keep their order, which is that of what they name. Every double comes back.
+using Json = nlohmann::ordered_json;
+
+static void to_json(Json& json, const Vec& v) { json = {v.x, v.y, v.z}; }
 
 namespace {
 
@@ -15,128 +20,80 @@ void save(const std::string& path, const std::string& bytes) {
   if (!file.flush()) throw std::runtime_error("cannot write " + path);
 }
 
-// A stream in which every double comes back.
-std::ostringstream exactStream() {
-  std::ostringstream out;
-  out.precision(17);
-  return out;
-}
-
-std::string json(double value) {
-  std::ostringstream out = exactStream();
-  out << value;
-  return out.str();
-}
-
-std::string json(std::same_as<bool> auto value) { return value ? "true" : "false"; }
-
-std::string json(const std::string& text) { return '"' + text + '"'; }
-
-using List = std::vector<std::string>;  // of JSON
-
-std::string json(const List& elements) {
-  std::string text;
-  for (const std::string& element : elements) text += (text.empty() ? "" : ", ") + element;
-  return "[" + text + "]";
-}
-
-std::string json(const Vec& v) { return json(List{json(v.x), json(v.y), json(v.z)}); }
-
-// The members of an object.
-class Members {
- public:
-  template <typename Value>
-  Members& add(const std::string& key, const Value& value) {
-    text_ += (text_.empty() ? "" : ",\n") + json(key) + ": " + json(value);
-    return *this;
-  }
-
-  friend std::string json(const Members& members) { return "{" + members.text_ + "}"; }
-
- private:
-  std::string text_;
-};
-
 std::string numbered(const std::string& kind, std::size_t number) {
   return kind + std::to_string(number);
 }
 
-Members membersOf(const Transform& t) {
+Json jsonOf(const Transform& t) {
   const auto& [x, y, z] = t.axis;
-  return Members()
-      .add("scale", t.scale)
-      .add("rotate", List{json(x), json(y), json(z), json(t.degrees)})
-      .add("translate", t.translate);
+  return {{"scale", t.scale}, {"rotate", {x, y, z, t.degrees}}, {"translate", t.translate}};
 }
 
-void addMotion(const Motion& motion, Members& members) {
+void addMotion(const Motion& motion, Json& noun) {
   if (motion.keys.empty()) return;
-  List keys;
+  Json keys;
   for (const auto& [time, scale, degrees, translate] : motion.keys) {
-    const Transform place{scale, motion.axis, degrees, translate};
-    keys.push_back(json(membersOf(place).add("time", time)));
+    keys.push_back(jsonOf(Transform{scale, motion.axis, degrees, translate}));
+    keys.back()["time"] = time;
   }
-  const std::string way = motion.inSteps ? "step" : "linear";
-  members.add("motion", Members().add("keys", keys).add("interpolation", way));
+  noun["motion"] = {{"keys", keys}, {"interpolation", motion.inSteps ? "step" : "linear"}};
 }
 
-Members membersOf(const Camera& c) {
-  Members members;
-  members.add("eye", c.eye).add("at", c.at).add("up", c.up);
+Json jsonOf(const Camera& c) {
+  Json json{{"eye", c.eye}, {"at", c.at}, {"up", c.up}};
   if (c.orthographicHeight > 0) {
-    members.add("orthographicHeight", c.orthographicHeight);
+    json["orthographicHeight"] = c.orthographicHeight;
   } else {
-    members.add("fov", c.fov);
+    json["fov"] = c.fov;
   }
-  if (c.aperture > 0) members.add("aperture", c.aperture).add("focus", c.focus);
-  addMotion(c.motion, members);
-  return members;
+  if (c.aperture > 0) json.update({{"aperture", c.aperture}, {"focus", c.focus}});
+  addMotion(c.motion, json);
+  return json;
 }
 
-Members membersOf(const Light& light) {
-  const std::string kinds[] = {"point", "spot", "directional"};
-  Members members;
-  members.add("type", kinds[static_cast<int>(light.kind)]);
+Json jsonOf(const Light& light) {
+  const char* const kinds[] = {"point", "spot", "directional"};
+  Json json{{"type", kinds[static_cast<int>(light.kind)]}};
   if (light.kind == Light::Kind::directional) {
-    members.add("irradiance", light.intensity);
+    json["irradiance"] = light.intensity;
   } else {
-    members.add("position", light.position)
-        .add("intensity", light.intensity)
-        .add("radius", light.radius);
+    json.update(
+        {{"position", light.position}, {"intensity", light.intensity}, {"radius", light.radius}});
   }
 
-  if (light.kind != Light::Kind::point) members.add("direction", light.direction);
+  if (light.kind != Light::Kind::point) json["direction"] = light.direction;
   if (light.kind == Light::Kind::spot) {
-    members.add("innerConeAngle", light.innerConeAngle).add("outerConeAngle", light.outerConeAngle);
+    json.update(
+        {{"innerConeAngle", light.innerConeAngle}, {"outerConeAngle", light.outerConeAngle}});
   }
-  addMotion(light.motion, members);
-  return members;
+  addMotion(light.motion, json);
+  return json;
 }
 
-Members membersOf(const Sky& sky) {
-  Members members;
-  members.add("scale", sky.scale);
+Json jsonOf(const Sky& sky) {
   if (sky.kind == Sky::Kind::image) {
-    return members.add("image", std::string("sky.hdr")).add("rotation", sky.rotation);
+    return {{"scale", sky.scale}, {"image", "sky.hdr"}, {"rotation", sky.rotation}};
   }
-  return members.add("zenith", sky.zenith).add("horizon", sky.horizon).add("ground", sky.ground);
+  return {{"scale", sky.scale},
+          {"zenith", sky.zenith},
+          {"horizon", sky.horizon},
+          {"ground", sky.ground}};
 }
 
-Members membersOf(const Ambient& ambient) {
-  Members members;
-  if (ambient.occlusion > 0) members.add("occlusion", ambient.occlusion);
-  if (ambient.fromSky > 0) return members.add("fromSky", ambient.fromSky);
-  return members.add("up", ambient.up).add("down", ambient.down);
+Json jsonOf(const Ambient& ambient) {
+  Json json;
+  if (ambient.occlusion > 0) json["occlusion"] = ambient.occlusion;
+  if (ambient.fromSky > 0) {
+    json["fromSky"] = ambient.fromSky;
+  } else {
+    json.update({{"up", ambient.up}, {"down", ambient.down}});
+  }
+  return json;
 }
 
-Members membersOf(const Material& m) {
-  Members members;
-  members.add("diffuse", m.diffuse)
-      .add("specular", m.specular)
-      .add("roughness", m.roughness)
-      .add("emission", m.emission)
-      .add("mirror", m.mirror)
-      .add("mirrorGrazing", m.mirrorGrazing);
+Json jsonOf(const Material& m) {
+  Json json{{"diffuse", m.diffuse},   {"specular", m.specular}, {"roughness", m.roughness},
+            {"emission", m.emission}, {"mirror", m.mirror},     {"mirrorGrazing", m.mirrorGrazing}};
 
   for (const auto& [key, map] : {std::pair{"diffuseMap", m.diffuseMap},
                                  {"specularMap", m.specularMap},
@@ -144,33 +101,34 @@ Members membersOf(const Material& m) {
                                  {"normalMap", m.normalMap},
                                  {"alphaMap", m.alphaMap},
                                  {"coverageMap", m.coverageMap}}) {
-    if (map != kNone) members.add(key, numbered("map", map));
+    if (map != kNone) json[key] = numbered("map", map);
   }
 
-  if (m.alphaMap != kNone) members.add("alphaCutoff", m.alphaCutoff);
-  if (m.coverage < 1) members.add("coverage", m.coverage);
+  if (m.alphaMap != kNone) json["alphaCutoff"] = m.alphaCutoff;
+  if (m.coverage < 1) json["coverage"] = m.coverage;
   if (m.transmits()) {
-    members.add("transmission", m.transmission)
-        .add("ior", m.ior)
-        .add("absorption", m.absorption)
-        .add("priority", m.priority);
+    json.update({{"transmission", m.transmission},
+                 {"ior", m.ior},
+                 {"absorption", m.absorption},
+                 {"priority", m.priority}});
   }
 
-  if (!m.diffuseReflection) members.add("diffuseReflection", false);
-  if (m.thin) members.add("thin", true);
-  if (m.frosted) members.add("frosted", true);
+  if (!m.diffuseReflection) json["diffuseReflection"] = false;
+  if (m.thin) json["thin"] = true;
+  if (m.frosted) json["frosted"] = true;
   if (m.glossyReflection != Choice::unsaid) {
-    members.add("glossyReflection", m.glossyReflection == Choice::yes);
+    json["glossyReflection"] = m.glossyReflection == Choice::yes;
   }
 
   // Said only where it is not what the rest makes of it.
   const bool casts = !m.transmits() && m.coverage >= 0.5;
-  if (m.castsShadow != casts) members.add("castsShadow", m.castsShadow);
-  return members;
+  if (m.castsShadow != casts) json["castsShadow"] = m.castsShadow;
+  return json;
 }
 
 std::string ply(const Mesh& mesh) {
-  std::ostringstream out = exactStream();
+  std::ostringstream out;
+  out.precision(17);  // every double comes back
   out << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
       << "\nproperty float x\nproperty float y\nproperty float z\n";
   if (!mesh.normals.empty()) out << "property float nx\nproperty float ny\nproperty float nz\n";
@@ -217,71 +175,66 @@ std::string tga(const Texture& texture) {
   return file;
 }
 
-Members shapeOf(const Scene& scene, const Object& object) {
-  Members members;
+Json shapeOf(const Scene& scene, const Object& object) {
   if (object.radius > 0) {
-    return members.add("shape", std::string("sphere"))
-        .add("radius", object.radius)
-        .add("material", numbered("material", object.material));
+    return {{"shape", "sphere"},
+            {"radius", object.radius},
+            {"material", numbered("material", object.material)}};
   }
-  const Members material = membersOf(scene.materials[object.material]);
-  return members.add("model", numbered("mesh", object.mesh) + ".ply")
-      .add("materials", Members().add("*", material));
+  return {{"model", numbered("mesh", object.mesh) + ".ply"},
+          {"materials", {{"*", jsonOf(scene.materials[object.material])}}}};
 }
 
-Members itemOf(const Scene& scene, const Body& body);
+Json itemOf(const Scene& scene, const Body& body);
 
 // The items of an object's list.
-List contentOf(const Scene& scene, const Object& object) {
-  List items;
-  for (const Body& body : object.before) items.push_back(json(itemOf(scene, body)));
-  items.push_back(json(shapeOf(scene, object)));
-  for (const Body& body : object.after) items.push_back(json(itemOf(scene, body)));
+Json contentOf(const Scene& scene, const Object& object) {
+  Json items;
+  for (const Body& body : object.before) items.push_back(itemOf(scene, body));
+  items.push_back(shapeOf(scene, object));
+  for (const Body& body : object.after) items.push_back(itemOf(scene, body));
   return items;
 }
 
-Members itemOf(const Scene& scene, const Body& body) {
-  Members members;
+Json itemOf(const Scene& scene, const Body& body) {
+  Json json{{"transform", jsonOf(body.transform)}};
   if (body.inPlace) {
-    members.add("group", contentOf(scene, scene.objects[body.object]));
+    json["group"] = contentOf(scene, scene.objects[body.object]);
   } else {
-    members.add("use", numbered("object", body.object));
+    json["use"] = numbered("object", body.object);
   }
-  members.add("transform", membersOf(body.transform));
-  addMotion(body.motion, members);
-  return members;
+  addMotion(body.motion, json);
+  return json;
 }
 
-Members membersOf(const Scene& scene) {
-  List lights, bodies;
-  for (const Light& light : scene.lights) lights.push_back(json(membersOf(light)));
-  for (const Body& body : scene.bodies) bodies.push_back(json(itemOf(scene, body)));
+Json jsonOf(const Scene& scene) {
+  Json lights = Json::array(), bodies = Json::array();
+  for (const Light& light : scene.lights) lights.push_back(jsonOf(light));
+  for (const Body& body : scene.bodies) bodies.push_back(itemOf(scene, body));
 
-  Members textures, materials, objects;
+  Json textures = Json::object(), materials = Json::object(), objects = Json::object();
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const std::string name = numbered("map", i);
-    textures.add(name, Members().add("image", name + ".tga"));
+    textures[name] = {{"image", name + ".tga"}};
   }
   // Shapes name their materials; models have them.
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    objects.add(numbered("object", i), contentOf(scene, object));
+    objects[numbered("object", i)] = contentOf(scene, object);
     if (!(object.radius > 0)) continue;
-    materials.add(numbered("material", object.material),
-                  membersOf(scene.materials[object.material]));
+    materials[numbered("material", object.material)] = jsonOf(scene.materials[object.material]);
   }
 
-  return Members()
-      .add("whit", 1)
-      .add("size", List{json(scene.width), json(scene.height)})
-      .add("cameras", Members().add("main", membersOf(scene.camera)))
-      .add("lights", lights)
-      .add("sky", membersOf(scene.sky))
-      .add("ambient", membersOf(scene.ambient))
-      .add("textures", textures)
-      .add("materials", materials)
-      .add("objects", objects)
-      .add("scene", bodies);
+  return {{"whit", 1},
+          {"size", {scene.width, scene.height}},
+          {"cameras", {{"main", jsonOf(scene.camera)}}},
+          {"lights", lights},
+          {"sky", jsonOf(scene.sky)},
+          {"ambient", jsonOf(scene.ambient)},
+          {"textures", textures},
+          {"materials", materials},
+          {"objects", objects},
+          {"scene", bodies}};
 }
 
 }  // namespace
@@ -294,7 +247,7 @@ std::string writeScene(const Scene& scene, const std::string& folder) {
     save(folder + numbered("/map", i) + ".tga", tga(scene.textures[i]));
   }
   if (scene.sky.kind == Sky::Kind::image) save(folder + "/sky.hdr", hdr(scene.sky));
-  save(folder + "/scene.json", json(membersOf(scene)));
+  save(folder + "/scene.json", jsonOf(scene).dump());
   return folder + "/scene.json";
 }
 

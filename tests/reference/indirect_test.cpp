@@ -11,7 +11,7 @@
 #include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "sampling/random_streams.h"
-#include "shapes/map_parameters.h"
+#include "shapes/generated.h"
 
 namespace whit::reference {
 namespace {
@@ -213,7 +213,7 @@ TEST(IndirectScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
 
 // Makes a disc of triangles, with an error of 4e-4 in its area.
 Mesh disc(double y, double radius, std::uint32_t material) {
-  Mesh mesh = meshOf("disc", {{"radius", radius}, {"segments", 128.0}});
+  Mesh mesh = meshOf("disc", joined("'segments': 128, 'radius': ", radius));
   transform(mesh, Affine::translation({0, y, 0}));
   mesh.materials = {material};
   return mesh;

@@ -1,1 +1,1 @@
-whit_tests(reference whit_make test_brute_force)
+whit_tests(reference whit_make whit_io test_brute_force)

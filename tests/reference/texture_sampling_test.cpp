@@ -62,10 +62,6 @@ TEST(TextureSampling, NearestTexel) {
                {-0.0001, 0.5, 120},
                {1.0001, 0.5, 0}},
               TextureFilter::nearest);
-
-  const Texture c = makeTexture(TexelFormat::color, 2, 1, {0u, 1023u});
-  EXPECT_EQ(sampleTexture(c, 0.7, 0.5, TextureFilter::nearest), RgbD(1, 0, 0));
-  EXPECT_EQ(sampleTexture(c, 0.3, 0.5, TextureFilter::nearest), RgbD(0, 0, 0));
 }
 
 TEST(TextureSampling, RepeatJoinsTheBorders) {

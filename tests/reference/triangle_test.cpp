@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/small_scenes.h"
-#include "shapes/map_parameters.h"
+#include "shapes/generated.h"
 
 namespace whit::reference {
 namespace {
@@ -44,7 +44,7 @@ TEST(Triangle, WithoutAreaOrDirectionMisses) {
 
 // Returns a sphere of facets, whose coordinates are arbitrary floats.
 Mesh facetedSphere(const Vec3d& center) {
-  Mesh mesh = meshOf("sphere", {{"radius", 2.0}, {"segments", 16.0}, {"rings", 12.0}});
+  Mesh mesh = meshOf("sphere", "'radius': 2, 'segments': 16, 'rings': 12");
   transform(mesh, Affine::translation(center));
   mesh.materials = {0};
   return mesh;

@@ -1,20 +1,16 @@
 // Closed scenes: rays that hit nothing are traced once more, if the camera is inside.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <string>
-
 #include "inspect/reference_frame.h"
 #include "render/renderer.h"
 #include "shipped_scene.h"
+#include "source_files.h"
 
 namespace whit {
 namespace {
 
 TEST(Enclosure, HoldsForEyesWithinOnly) {
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  const std::string folder = source ? source : ".";
-  const Scene scene = test::load(folder + "/scenes/hard/closed-room.json");
+  const Scene scene = test::load(sourceFile("scenes/hard/closed-room.json"));
   RenderOptions options;
   options.size = ImageSize{16, 16};
   options.threads = 1;

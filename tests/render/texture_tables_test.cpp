@@ -1,6 +1,7 @@
 // Texels in strips: each footprint is where the kernels read it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "reference/small_scenes.h"
 #include "render/build_tables.h"
 #include "render/pipeline_laws.h"
-#include "render/wrapped_texel.h"
 
 namespace whit::test {
 namespace {
@@ -19,6 +19,13 @@ Texture numbered(int width, int height) {
   std::vector<std::uint32_t> texels(width * height);
   std::iota(texels.begin(), texels.end(), 1u);
   return makeTexture(TexelFormat::color, width, height, texels);
+}
+
+// Returns the index of the texel in the place of one beyond the border. Mirrored coordinates are
+// folded before they become indices, and never wrap.
+int wrappedTexel(int i, int size, Wrap wrap) {
+  if (wrap == Wrap::repeat) return (i % size + size) % size;
+  return std::clamp(i, 0, size - 1);
 }
 
 TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {

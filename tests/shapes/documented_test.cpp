@@ -2,17 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/option_table.h"
 #include "core/text.h"
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "make/shape.h"
+#include "source_files.h"
 #include "temporary_folder.h"
 
 namespace whit {
@@ -21,13 +22,13 @@ namespace {
 // Gives every parameter its default, and records the parameters that were queried.
 class RecordingParameters : public ShapeParameters {
  public:
-  double number(const std::string& key, double fallback, double, double) override {
+  double number(const std::string& key, double fallback, double low, double high) override {
+    EXPECT_TRUE(fallback >= low && fallback <= high) << key;
     note(key, text(fallback));
     return fallback;
   }
-  int integer(const std::string& key, int fallback, int, int) override {
-    note(key, std::to_string(fallback));
-    return fallback;
+  int integer(const std::string& key, int fallback, int low, int high) override {
+    return static_cast<int>(number(key, fallback, low, high));
   }
   bool flag(const std::string& key, bool fallback) override {
     note(key, fallback ? "true" : "false");
@@ -39,6 +40,7 @@ class RecordingParameters : public ShapeParameters {
   }
   std::string word(const std::string& key, const std::string& fallback,
                    const std::vector<std::string>& choices) override {
+    EXPECT_TRUE(contains(choices, fallback)) << key;
     std::string others;
     for (const std::string& choice : choices) {
       if (choice != fallback) others += " or " + choice;
@@ -65,12 +67,7 @@ class RecordingParameters : public ShapeParameters {
   std::vector<std::string> listed_;
 };
 
-std::vector<std::string> lines() {
-  std::ifstream file(std::string(std::getenv("WHIT_SOURCE_DIR")) + "/scenes/README.md");
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
-  return lines;
-}
+std::vector<std::string> lines() { return split(sourceText("scenes/README.md"), '\n'); }
 
 // Returns the table's row of a shape or pattern, or an empty string.
 std::string rowOf(const std::string& name) {

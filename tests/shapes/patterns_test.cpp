@@ -6,7 +6,7 @@
 
 #include "decoded_texel.h"
 #include "make/patterns/noise.h"
-#include "shapes/map_parameters.h"
+#include "shapes/generated.h"
 
 namespace whit::test {
 namespace {
@@ -26,11 +26,11 @@ Rgb color(const Texture& texture, int column, int row) {
 TEST(EveryPattern, IsCompleteNotFlatAndTheSameEachTime) {
   for (const auto& [name, generator] : patternGenerators()) {
     SCOPED_TRACE(name);
-    const Texture a = paint(name, {{"size", 64.0}});
+    const Texture a = paint(name, "'size': 64");
     EXPECT_EQ(a.width, 64);
     EXPECT_EQ(a.height, 64);
     EXPECT_EQ(a.texels.size(), 64u * 64u);
-    EXPECT_EQ(a.texels, paint(name, {{"size", 64.0}}).texels);
+    EXPECT_EQ(a.texels, paint(name, "'size': 64").texels);
     EXPECT_EQ(a.wrapU, Wrap::repeat);
 
     const bool isData = name.ends_with("Normals") || name.ends_with("Mask");
@@ -42,7 +42,7 @@ TEST(EveryPattern, IsCompleteNotFlatAndTheSameEachTime) {
 TEST(EveryNormalMap, HoldsUnitVectorsOnTheOutside) {
   for (const char* name : {"bricksNormals", "tilesNormals", "plasterNormals", "roofNormals"}) {
     SCOPED_TRACE(name);
-    const Texture texture = paint(name, {{"size", 128.0}});
+    const Texture texture = paint(name, "'size': 128");
     Vec3d mean;
 
     for (int row = 0; row < 128; ++row) {
@@ -63,9 +63,8 @@ TEST(EveryNormalMap, HoldsUnitVectorsOnTheOutside) {
 }
 
 TEST(Patterns, CheckerStartsWithItsFirstColorAtTheLowerLeft) {
-  const Texture texture = paint(
-      "checker",
-      {{"size", 8.0}, {"columns", 2.0}, {"color", Vec3d{1, 0, 0}}, {"color2", Vec3d{0, 0, 1}}});
+  const Texture texture =
+      paint("checker", "'size': 8, 'columns': 2, 'color': [1, 0, 0], 'color2': [0, 0, 1]");
   EXPECT_EQ(color(texture, 0, 7), Rgb(1, 0, 0));
   EXPECT_EQ(color(texture, 7, 7), Rgb(0, 0, 1));
   EXPECT_EQ(color(texture, 0, 0), Rgb(0, 0, 1));
@@ -75,13 +74,9 @@ TEST(Patterns, CheckerStartsWithItsFirstColorAtTheLowerLeft) {
 TEST(Patterns, NormalsOfAnUpwardJointLeanAwayFromIt) {
   // There is one tile: near its left joint the surface rises to the right, so the normal leans
   // left.
-  const Texture texture = paint("tilesNormals", {{"size", 128.0},
-                                                 {"columns", 1.0},
-                                                 {"rows", 1.0},
-                                                 {"joint", 0.02},
-                                                 {"bevel", 0.2},
-                                                 {"rough", 0.0},
-                                                 {"depth", 0.05}});
+  const Texture texture = paint("tilesNormals",
+                                "'size': 128, 'columns': 1, 'rows': 1, 'joint': 0.02, 'bevel': "
+                                "0.2, 'rough': 0, 'depth': 0.05");
 
   EXPECT_LT(data(texture, 12, 64).x, 0.5 - 4 * kStep8);
   EXPECT_GT(data(texture, 127 - 12, 64).x, 0.5 + 4 * kStep8);
@@ -91,7 +86,7 @@ TEST(Patterns, NormalsOfAnUpwardJointLeanAwayFromIt) {
 }
 
 TEST(Patterns, LeafMaskCutsTheCornersAndKeepsTheMiddle) {
-  const Texture texture = paint("leafMask", {{"size", 64.0}});
+  const Texture texture = paint("leafMask", "'size': 64");
   for (const int row : {0, 63}) {
     for (const int column : {0, 63}) EXPECT_EQ(data(texture, column, row).x, 0);
   }

@@ -1,19 +1,18 @@
 // The shipped scenes load, hold what they promise and need no repairs.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "bake/scene.h"
 #include "io/files.h"
 #include "io/load_scene.h"
+#include "source_files.h"
 
 namespace whit::test {
 namespace {
 
 Scene load(const std::string& file, Warnings& warnings) {
-  const std::string folder = std::getenv("WHIT_SOURCE_DIR");
-  return Scene::finalize(loadScene(folder + "/scenes/" + file, {}, warnings), warnings);
+  return Scene::finalize(loadScene(sourceFile("scenes/" + file), {}, warnings), warnings);
 }
 
 // Expects what all shipped scenes have. They need no repairs.

@@ -3,21 +3,22 @@
 
 #include <cmath>
 
-#include "shapes/map_parameters.h"
+#include "shapes/generated.h"
 #include "shapes/mesh_measures.h"
 
 namespace whit::test {
 namespace {
 
 TEST(Terrain, HasTheTrianglesAskedFor) {
-  for (const double triangles : {20000.0, 20100.0}) {
-    EXPECT_EQ(meshOf("terrain", {{"triangles", triangles}}).triangles.size(), 20000u);
+  for (const char* triangles : {"'triangles': 20000", "'triangles': 20100"}) {
+    EXPECT_EQ(meshOf("terrain", triangles).triangles.size(), 20000u);
   }
 }
 
 // Returns the ground on a grid of `cells` x `cells`.
-Mesh terrainOf(double size, int cells, double seed = 5) {
-  return meshOf("terrain", {{"seed", seed}, {"size", size}, {"triangles", 2.0 * cells * cells}});
+Mesh terrainOf(int size, int cells, int seed = 5) {
+  return meshOf("terrain",
+                joined("'seed': ", seed, ", 'size': ", size, ", 'triangles': ", 2 * cells * cells));
 }
 
 TEST(Terrain, LiesOnTheSameGroundAtEveryResolution) {
@@ -44,8 +45,7 @@ TEST(Terrain, ChangesWithItsSeed) {
 TEST(Forest, StandsOnTheGroundOfItsTerrain) {
   constexpr int kCells = 1000;
   const Mesh terrain = terrainOf(100, kCells);
-  const Shape shape =
-      generate("forest", {{"seed", 5.0}, {"size", 100.0}, {"trees", 150.0}, {"leaves", 50.0}});
+  const Shape shape = generate("forest", "'seed': 5, 'size': 100, 'trees': 150, 'leaves': 50");
   ASSERT_EQ(shape.placements.size(), 150u);
 
   // Roots go into the ground by up to two per cent of the largest scale. The terrain differs from
@@ -70,7 +70,7 @@ TEST(Forest, StandsOnTheGroundOfItsTerrain) {
 }
 
 TEST(Forest, MultipliesOutToTheTrianglesAskedFor) {
-  const Shape shape = generate("forest", {{"triangles", 200000.0}, {"leaves", 300.0}});
+  const Shape shape = generate("forest", "'triangles': 200000, 'leaves': 300");
   std::size_t tree = 0;
   for (const ShapePart& part : shape.parts) tree += part.mesh.triangles.size();
   const std::size_t total = tree * shape.placements.size();
@@ -81,7 +81,7 @@ TEST(Forest, MultipliesOutToTheTrianglesAskedFor) {
 TEST(Tree, HasItsLeavesAndReachesItsHeight) {
   for (const char* kind : {"broadleaf", "conifer"}) {
     const Shape shape =
-        generate("tree", {{"kind", std::string(kind)}, {"leaves", 700.0}, {"height", 10.0}});
+        generate("tree", joined("'leaves': 700, 'height': 10, 'kind': '", kind, "'"));
 
     ASSERT_EQ(shape.parts.size(), 2u);
     EXPECT_EQ(shape.parts[0].slot, "bark");

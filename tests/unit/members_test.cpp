@@ -2,12 +2,9 @@
 // members.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-
 #include "has_text.h"
 #include "scene/members.h"
+#include "source_files.h"
 
 namespace whit {
 namespace {
@@ -46,15 +43,12 @@ void expectDocumented(const std::string& page) {
 }
 
 TEST(Members, AreInTheReadme) {
-  const char* folder = std::getenv("WHIT_SOURCE_DIR");
-  ASSERT_NE(folder, nullptr);
-  std::stringstream page;
-  page << std::ifstream(std::string(folder) + "/scenes/README.md").rdbuf();
-  expectDocumented<Camera>(page.str());
-  expectDocumented<Material>(page.str());
-  expectDocumented<Light>(page.str());
-  expectDocumented<Sky>(page.str());
-  expectDocumented<Ambient>(page.str());
+  const std::string page = sourceText("scenes/README.md");
+  expectDocumented<Camera>(page);
+  expectDocumented<Material>(page);
+  expectDocumented<Light>(page);
+  expectDocumented<Sky>(page);
+  expectDocumented<Ambient>(page);
 }
 
 }  // namespace
