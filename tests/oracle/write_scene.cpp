@@ -159,6 +159,7 @@ Members membersOf(const Material& m) {
   if (!m.diffuseReflection) members.add("diffuseReflection", false);
   if (m.thin) members.add("thin", true);
   if (m.frosted) members.add("frosted", true);
+  if (m.coat) members.add("coat", true);
   if (m.glossyReflection != Choice::unsaid) {
     members.add("glossyReflection", m.glossyReflection == Choice::yes);
   }
