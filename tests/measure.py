@@ -105,7 +105,7 @@ def measure_choices():
 
 
 def measure_spheres():
-    """Exact ones and triangles in turn; and POV-Ray's."""
+    """Exact ones and triangles in turn."""
     keep("spheres.json",
          merged([(bench("whitted --size 480x300 --depth 8 --frames 9 "
                         f"--sphere-segments {segments}"), {"segments": segments})
@@ -201,29 +201,32 @@ def frame_table(data):
     return table(["ms a frame", *[scene_of(r) for r in runs]], cells)
 
 
+def side_by_side(runs, name_of, cells_of):
+    """A row a name, with the cells of all its runs in their order."""
+    rows = {}
+    for one in runs:
+        rows.setdefault(name_of(one), []).extend(cells_of(one))
+    return [[name, *cells] for name, cells in rows.items()]
+
+
 def width_table(data):
     scenes = scenes_of(data["runs"])
-    rows = []
-    for packet in sorted({r["packet"] for r in data["runs"]}):
-        rows.append([str(packet)])
-        for scene in scenes:
-            one = next(r for r in data["runs"] if r["packet"] == packet and scene_of(r) == scene)
-            rows[-1] += [number(one["frame_ms"]["median"]), number(one["frame_over_floor"], 2)]
     head = ["packets of"] + [word for scene in scenes for word in (scene + ", ms", "over floor")]
-    return table(head, rows)
+    return table(head, side_by_side(
+        data["runs"], lambda r: str(r["packet"]),
+        lambda r: [number(r["frame_ms"]["median"]), number(r["frame_over_floor"], 2)]))
 
 
 def choice_table(data):
     scenes = scenes_of(data["runs"])
 
+    def times(scene, choice, turn):
+        return [r["frame_ms"]["median"] for r in data["runs"]
+                if (scene_of(r), r["choice"], r["turn"]) == (scene, choice, turn)]
+
     def ratio(scene, choice):
-        ratios = []
-        for turn in range(ROUNDS):
-            times = {}
-            for one in data["runs"]:
-                if scene_of(one) == scene and one["turn"] == turn:
-                    times.setdefault(one["choice"], []).append(one["frame_ms"]["median"])
-            ratios.append(times[choice][0] / statistics.mean(times[""]))
+        ratios = [times(scene, choice, turn)[0] / statistics.mean(times(scene, "", turn))
+                  for turn in range(ROUNDS)]
         return number(statistics.median(ratios), 2)
 
     return table(["", *scenes],
@@ -238,13 +241,10 @@ def triangle_table(data):
 
 
 def long_path_table(data):
-    runs = {(r["scene"], r["cutoff"]): r for r in data["runs"]}
     columns = [f"{what}, `--cutoff {cutoff}`" for cutoff in CUTOFFS for what in ["ms", "million rays"]]
-    return table(["", *columns],
-                 [[scene_of(r), *(cell for cutoff in CUTOFFS for run in [runs[r["scene"], cutoff]]
-                                  for cell in [number(run["frame_ms"]["median"]),
-                                               number(million_rays(run), 2)])]
-                  for r in data["runs"] if r["cutoff"] == CUTOFFS[0]])
+    return table(["", *columns], side_by_side(
+        data["runs"], scene_of,
+        lambda r: [number(r["frame_ms"]["median"]), number(million_rays(r), 2)]))
 
 
 def sphere_table(data):
@@ -288,12 +288,6 @@ def transport_table(rows):
 def transport_charts(scenes):
     return " ".join(f"![Error against all transport over time, {scene}]"
                      f"(../../scenes/pictures/transport-{scene}.svg)" for scene in scenes)
-
-
-def report_data(folder):
-    """The JSON in the report of a command."""
-    page = (OUT / folder / "report.html").read_text()
-    return json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
 
 
 def sweep(folder="accuracy"):
@@ -385,12 +379,6 @@ def sizes_table(frames, scenes):
     return table(["", "ms a frame", "frames a second", "frame over floor", "Mray/s"], rows)
 
 
-def avx2_table(frames):
-    """Kernels of AVX2 and packets of 8, on a machine that the page may have measured nothing else on."""
-    return (machine_line(frames[0][1], f"frames-avx2-{SIZES[0]}.json") + "\n\n" +
-            sizes_table(frames, FRAME_SCENES))
-
-
 def home_speed(frames):
     """README.md: one scene at two sizes."""
     first = frames[0][1]["runs"][0]
@@ -475,18 +463,19 @@ def write_speed():
         tables["effects-kernels"] = (
             f"With the steps of every effect, a frame of matte takes {ratio['frame']:.2f} times as "
             f"long, its part outside Embree {ratio['outside_embree']:.2f} times.")
-    effects = OUT / "effects/effects.csv"
-    if effects.exists():
+    if (OUT / "effects/effects.csv").exists():
         put_charts("effects", {"effects": "effects.svg"})
     put(SPEED_PAGE, tables)
     put("README.md", {"speed": home_speed(frames)})
 
 
 def write_avx2():
+    """Kernels of AVX2 and packets of 8, on a machine that the page may have measured nothing else on."""
     frames = frames_of_one_machine("frames-avx2")
     if not frames:
         return
-    put(SPEED_PAGE, {"avx2": avx2_table(frames)})
+    machine = machine_line(frames[0][1], f"frames-avx2-{SIZES[0]}.json")
+    put(SPEED_PAGE, {"avx2": machine + "\n\n" + sizes_table(frames, FRAME_SCENES)})
 
 
 def put_charts(folder, pictures):

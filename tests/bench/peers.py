@@ -22,6 +22,9 @@ import sys
 
 from turns import ROOT, WHIT, take_turns, time_whit
 
+sys.path.append(str(ROOT / "tests"))
+import measure
+
 WORK = ROOT / "build/peers"
 MODEL = pathlib.Path(os.environ.get("WHIT_DATA", ROOT / "../shared/data")) / "crytek_sponza/sponza.obj"
 # As in scenes/sponza-mirror.json.
@@ -128,18 +131,11 @@ def main():
     }
     medians = take_turns(takers, job.rounds)
     own = medians["whit, in gray"]
-    rows = [f"| {name} | {ms:.1f} | {ms / own:.2f} |" for name, ms in medians.items()]
-    table = "\n".join([f"| {job.size}, {job.threads} threads | ms | times whit |", "|---|---:|---:|",
-                       *rows])
+    table = measure.table([f"{job.size}, {job.threads} threads", "ms", "times whit"],
+                          [[name, f"{ms:.1f}", f"{ms / own:.2f}"] for name, ms in medians.items()])
     print(table)
     if job.page:
-        page = ROOT / "tests/bench/README.md"
-        text, count = re.subn(r"(<!-- peers -->\n).*?(<!-- /peers -->)",
-                              lambda found: found.group(1) + table + "\n" + found.group(2),
-                              page.read_text(), flags=re.DOTALL)
-        if count != 1:
-            sys.exit(f"{page}: expected one place for <!-- peers -->, found {count}")
-        page.write_text(text)
+        measure.put(measure.SPEED_PAGE, {"peers": table})
     return 0
 
 

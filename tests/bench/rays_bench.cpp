@@ -26,8 +26,8 @@ namespace {
 using whit::Vec3d;
 using whit::Vec3f;
 
-constexpr std::size_t kSide = 1000, kRays = kSide * kSide, kChunk = 2048;
-constexpr int kWidth = 16;
+// A row is a multiple of a packet.
+constexpr std::size_t kSide = 1024, kRays = kSide * kSide, kWidth = 16;
 constexpr unsigned kNone = RTC_INVALID_GEOMETRY_ID;
 
 struct Arrays {
@@ -69,9 +69,9 @@ Arrays lidarRays(const Vec3d& low, const Vec3d& size) {
 
 std::vector<float> traceOneByOne(const whit::EmbreeScene& scene, const Arrays& rays, int threads) {
   std::vector<float> t(kRays);
-  whit::parallelFor(threads, (kRays + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+  whit::parallelFor(threads, kSide, [&](std::size_t row, int) {
     whit::QueryContext context(false);
-    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, kRays); ++i) {
+    for (std::size_t i = row * kSide; i < (row + 1) * kSide; ++i) {
       const Vec3f &o = rays.origins[i], &d = rays.directions[i];
       RTCRayHit hit{};
       hit.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, INFINITY, ~0u, 0, 0};
@@ -94,7 +94,7 @@ struct PacketColumns {
 
 std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& rays, int threads) {
   std::vector<float> t(kRays);
-  whit::parallelFor(threads, kRays / kSide, [&](std::size_t row, int) {
+  whit::parallelFor(threads, kSide, [&](std::size_t row, int) {
     whit::QueryContext context(true);
     for (std::size_t first = row * kSide; first < (row + 1) * kSide; first += kWidth) {
       alignas(64) RTCRayHit16 packet{};
@@ -102,10 +102,8 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
       auto& ray = packet.ray;
 
       for (std::size_t k = 0; k < kWidth; ++k) {
-        live[k] = first + k < (row + 1) * kSide ? -1 : 0;
-        // Lanes beyond the row's end hold a ray, but are not live.
-        const std::size_t i = std::min(first + k, kRays - 1);
-        const Vec3f &o = rays.origins[i], &d = rays.directions[i];
+        live[k] = -1;
+        const Vec3f &o = rays.origins[first + k], &d = rays.directions[first + k];
         ray.org_x[k] = o.x;
         ray.org_y[k] = o.y;
         ray.org_z[k] = o.z;
@@ -121,7 +119,7 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
       context.setRays(
           PacketColumns{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}});
       context.trace(scene.top(), packet, live);
-      for (std::size_t k = 0; k < kWidth && live[k] != 0; ++k) t[first + k] = ray.tfar[k];
+      std::ranges::copy(ray.tfar, &t[first]);
     }
   });
   return t;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Nine spheres of glass, air and mirrors over a checkered floor: whit and POV-Ray in turn.
 
-  tests/bench/spheres_povray.py [--rounds N] [--size WxH] [--pictures DIR] [--json FILE]
+  tests/bench/spheres_povray.py [--rounds N] [--size WxH] [--pictures DIR]
 
 Both have exact spheres, the same view, light, indices and reflectances, depth 8, the same smallest
 contribution (--cutoff, adc_bailout) and two threads; glass casts no shadow in either. Prints the
@@ -92,7 +92,6 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--size", default="480x300")
     parser.add_argument("--pictures", type=pathlib.Path)
-    parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
     if not shutil.which("povray") or not WHIT.exists():
         print("povray or build/whit is not there: nothing is compared", file=sys.stderr)
@@ -114,8 +113,6 @@ def main():
             "whit": lambda: time_whit(exact, *timed),
             "POV-Ray": lambda: trace_povray(pov, width, height, None),
             f"whit, {SEGMENTS} segments": lambda: time_whit(facets, *timed)}, given.rounds)
-    if given.json:
-        given.json.write_text(json.dumps(medians, indent=1) + "\n")
     for name, median in medians.items():
         print(f"{name:20} {median:8.1f} ms  {median / medians['whit']:6.2f}")
     return 0

@@ -88,19 +88,6 @@ TEST_F(Images, MetadataMakesTheImageAgain) {
   EXPECT_TRUE(sameBits("a.exr", "b.exr"));
 }
 
-TEST_F(Images, CropsMergeToTheWhole) {
-  render("-o whole.exr");
-  render("-o left.exr --crop 0,0,20,32");
-  render("-o top.exr --crop 20,0,48,10");
-  render("-o rest.exr --crop 20,10,48,32");
-  succeed("merge merged.exr left.exr top.exr rest.exr");
-  EXPECT_TRUE(sameBits("whole.exr", "merged.exr"));
-
-  // A merged picture must have no gap.
-  EXPECT_EQ(run("merge gap.exr left.exr top.exr").status, 2);
-  EXPECT_FALSE(exists("gap.exr"));
-}
-
 TEST_F(Images, FramesFollowThePath) {
   render("-o f-###.exr --frames 0..2 --fps 2");
   EXPECT_EQ(metadataOf("f-000.exr")["eye"], "0,2,6");

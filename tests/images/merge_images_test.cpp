@@ -41,10 +41,6 @@ TEST_F(MergeImages, PutsCropsInTheirPlaces) {
   EXPECT_TRUE(warnings_.entries().empty());
 }
 
-TEST_F(MergeImages, OneWholePartIsItself) {
-  EXPECT_EQ(merge({part("a.exr", {0, 0, 8, 6}, 5)}).image.at(7, 5), Rgb(7, 5, 5));
-}
-
 TEST_F(MergeImages, WhereOverlapsDifferTheLaterWinsAndIsCounted) {
   const Image image = merge({part("a.exr", {0, 0, 8, 4}, 1), part("b.exr", {0, 3, 8, 6}, 2)}).image;
   EXPECT_EQ(image.at(0, 2).z, 1);

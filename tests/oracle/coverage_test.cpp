@@ -89,7 +89,7 @@ TEST_F(Coverage, SheetsInARoom) {
 }
 
 TEST_F(Coverage, Maps) {
-  const auto mappedSheets = [&] {
+  expectAgreementWithEachFilter("coverage maps", [&] {
     litRoomWithSomethingBehind();
 
     for (int i = 0; i < 4; ++i) {
@@ -105,13 +105,7 @@ TEST_F(Coverage, Maps) {
       if (i == 3) material.alphaMap = addShares();
       add(turnedPane(i == 0 ? 3 : 0.7), material, standing(i, 4));
     }
-  };
-
-  expectAgreement("coverage maps", {.depth = 10}, mappedSheets);
-  expectAgreement("coverage maps, nearest texels", {.depth = 10, .filter = Filter::nearest},
-                  mappedSheets);
-  expectAgreement("coverage maps, trilinear", {.depth = 10, .filter = Filter::trilinear},
-                  mappedSheets);
+  });
 }
 
 // Within glass, across its faces, and around it.

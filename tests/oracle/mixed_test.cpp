@@ -1,6 +1,6 @@
-// Random scenes that mix all effects. The mean radiance of blocks of pixels is compared between
-// whit and the oracle. Both sides are random, so a difference is measured in its standard errors,
-// which follow from how the differences of single pixels spread.
+// Random scenes that mix all effects. Light is linear in them, and the mean radiance of blocks of
+// pixels is compared between whit and the oracle. Both sides are random, so a difference is
+// measured in its standard errors, which follow from how the differences of single pixels spread.
 //
 // whit renders with --cutoff 0 and --light-cutoff 0, and the oracle ends its paths at the same
 // --depth: with these settings both estimate the same number, with and without --roulette. Scenes
@@ -181,6 +181,35 @@ class Mixed : public Agreement {
     addLights();
   }
 
+  // Gives the material parts of every kind, with a coat or without, whatever kind it is of.
+  void mixParts(Material& material) {
+    if (chance(0.3)) material.specular = color(0, 1);
+    if (chance(0.3)) material.mirror = material.mirrorGrazing = color(0, 0.4);
+    if (chance(0.3)) material.mirrorGrazing = color(0, 1);
+    if (chance(0.2)) material.transmission = color(0, 1);
+    if (chance(0.2)) material.emission = color(0, 1);
+
+    material.roughness = between(0, 1);
+    material.glossyReflection = oneOf({Choice::no, Choice::yes, Choice::yes});
+    material.coat = chance(0.3);
+    material.thin = chance(0.3);
+    material.frosted = chance(0.5);
+  }
+
+  // Puts out one of two halves of what shines, or nothing. What is out stays in its list, because
+  // the number of a light decides on its random points.
+  void putOut(int half) {
+    const auto isOut = [&] { return below(2) == half; };
+    for (Light& light : scene.lights) {
+      if (isOut()) light.intensity = {};
+    }
+    for (Material& material : scene.materials) {
+      if (isOut()) material.emission = {};
+    }
+    if (isOut()) scene.sky.scale = 0;
+    if (isOut()) scene.ambient.up = scene.ambient.down = {};
+  }
+
   Options mixedOptions() {
     Options options;
     options.depth = 1 + below(4);
@@ -200,6 +229,12 @@ bool moves(const Scene& scene) {
   const auto isMoved = [](const auto& thing) { return !thing.motion.keys.empty(); };
   return std::ranges::any_of(scene.bodies, isMoved) || std::ranges::any_of(scene.lights, isMoved) ||
          isMoved(scene.camera);
+}
+
+// The time at which a scene is rendered, if anything in it moves.
+std::optional<double> timeOf(const Scene& scene) {
+  if (moves(scene)) return scene.time;
+  return {};
 }
 
 // Names the groups in which a scene is counted.
@@ -253,8 +288,8 @@ class Comparison {
   explicit Comparison(std::string mode) : mode_(std::move(mode)) {}
 
   void add(const Scene& scene, const Options& options, const std::vector<Color>& wanted,
-           const std::string& file, const std::optional<double>& time) {
-    const whit::api::Image image = render(options, file, mode_, time);
+           const std::string& file) {
+    const whit::api::Image image = render(options, file, mode_, timeOf(scene));
     std::array<Paired, kWidth / kBlock*(kHeight / kBlock)> blocks;
     Paired picture;
     std::array<Paired, 2> halves;  // every other pixel
@@ -325,6 +360,45 @@ class Comparison {
   std::map<std::string, Together> effects_;
 };
 
+// The options are of all kinds but those that look at the brightness of the picture: --adaptive,
+// and --light-cutoff, by which a light may be too dark to count.
+TEST_F(Mixed, LightIsLinear) {
+  // Sanitizers look for faults of memory, which few scenes show as well as many.
+  const int scenes = whit::kSanitized ? 40 : 200;
+  for (int i = 0; i < scenes; ++i) {
+    const std::string mode = i % kScenesPerReference == 0 ? "reference" : "packets";
+    std::vector<whit::api::Image> images;
+    for (const int half : {0, 1, kNone}) {
+      const std::string file = writeNew(7000 + i, [&] {
+        mixedScene();
+        for (Material& material : scene.materials) mixParts(material);
+        putOut(half);
+        scene.width = 12;
+        scene.height = 8;
+      });
+
+      Options options = mixedOptions();
+      options.spp = oneOf({1, 2, 4});
+      options.cutoff = oneOf({0.0, 1e-3});
+      options.terminator = chance(0.5);
+      options.blurredSky = chance(0.5);
+      images.push_back(render(options, file, mode, timeOf(scene)));
+    }
+
+    double brightest = 0, worst = 0;
+    for (std::size_t k = 0; k < images[0].rgb().size() / 3; ++k) {
+      const Color both = colorOf(images[2], k);
+      const double off = differenceOf(colorOf(images[0], k) + colorOf(images[1], k), both);
+      brightest = std::max(brightest, largest(both));
+      worst = std::max(worst, off / (0.1 + largest(both)));
+    }
+
+    // Roundings of the sums of a path.
+    EXPECT_LT(worst, 1e-5) << "scene " << i << " by " << mode;
+    EXPECT_GT(brightest, 0) << i;
+  }
+}
+
 TEST_F(Mixed, MeansOfAllEffectsTogether) {
   const int scenes =
       static_cast<int>(numberOf("WHIT_ORACLE_SCENES", whit::kSanitized ? 20 : kScenes));
@@ -344,10 +418,9 @@ TEST_F(Mixed, MeansOfAllEffectsTogether) {
       wanted.push_back(sum / drawn);
     });
 
-    const auto time = moves(scene) ? std::optional(scene.time) : std::nullopt;
     for (Comparison* comparison : {&packets, &reference}) {
       if (comparison == &reference && i % kScenesPerReference != 0) continue;
-      comparison->add(scene, options, wanted, file, time);
+      comparison->add(scene, options, wanted, file);
     }
   }
 

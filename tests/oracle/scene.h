@@ -46,6 +46,7 @@ struct Material {
   int coverageMap = kNone;  // its first channel multiplies it
   bool thin = false;
   bool frosted = false;  // the roughness is also that of the light that passes
+  bool coat = false;     // the mirror dims what lies below it, of which the oracle knows nothing
 
   bool isInPart() const { return coverage < 1 || coverageMap != kNone; }
   bool transmits() const { return largest(transmission) > 0; }
@@ -166,8 +167,10 @@ struct Options {
   int depth = 8;
   int glossy = 0, indirect = 0;
   int lightSamples = 1, ambientSamples = 0;
-  int spp = 1;          // of whit's; the oracle is told how many samples to draw
-  double roulette = 0;  // whit's alone: no mean depends on it
+  int spp = 1;  // of whit's; the oracle is told how many samples to draw
+  // These are whit's alone: no mean depends on roulette, and the oracle knows none of the others.
+  double roulette = 0, cutoff = 0;
+  bool blurredSky = false;
   bool terminator = false;
   Filter filter = Filter::bilinear;
   bool schlickFresnel = false;

@@ -116,6 +116,7 @@ Json jsonOf(const Material& m) {
   if (!m.diffuseReflection) json["diffuseReflection"] = false;
   if (m.thin) json["thin"] = true;
   if (m.frosted) json["frosted"] = true;
+  if (m.coat) json["coat"] = true;
   if (m.glossyReflection != Choice::unsaid) {
     json["glossyReflection"] = m.glossyReflection == Choice::yes;
   }

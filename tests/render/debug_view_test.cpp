@@ -15,15 +15,13 @@ using Code = std::array<int, 3>;
 
 // A wall at z = 0 of the color (0.5, 0.25, 0.1) fills the view from z = 5; there is one light.
 SceneDescription wall() {
-  SceneDescription d;
-  d.materials.resize(1);
-  d.materials[0].diffuse = {0.5f, 0.25f, 0.1f};
-  d.lights = {verify::lightAt({0, 0, 4}, 1)};
-  d.objects.push_back(
-      {"wall", {verify::quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}, 0)}});
-  d.instances.push_back({0, Affine{}});
-  d.cameras.resize(1);  // at z = 5, looking along -z
-  return d;
+  verify::SceneBuilder builder;
+  Material material;
+  material.diffuse = {0.5f, 0.25f, 0.1f};
+  builder.add(verify::quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}, 0), material);
+  builder.description.lights = {verify::lightAt({0, 0, 4}, 1)};
+  builder.lookFrom({0, 0, 5});
+  return builder.describe();
 }
 
 struct Viewed {

@@ -181,17 +181,6 @@ TEST(AbsentEffects, WithAllOfThemEveryRayStageAndBufferIsThere) {
   EXPECT_TRUE(cost.skyImage);
 }
 
-TEST(AbsentEffects, WithoutShadowsEveryLightShines) {
-  const Scene scene = load("matte");
-  RenderOptions o = smallOptions();
-  const Image shadowed = render(scene, o).image;
-  o.disable = {Effect::shadows};
-  const Image lit = render(scene, o).image;
-  for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
-    EXPECT_GE(lit.pixels[i].x, shadowed.pixels[i].x);
-  }
-}
-
 struct Absence {
   EffectSet effects;
   std::string gone;     // rays, stages, kernels and buffers

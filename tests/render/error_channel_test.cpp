@@ -22,32 +22,27 @@ RenderOptions withErrors(Mode mode = Mode::packets) {
 
 double meanOf(const Rgb& p) { return (double{p.x} + double{p.y} + double{p.z}) / 3; }
 
-// A triangle emits before a black background.
-Scene discScene() {
+// A tilted square emits before a black background.
+Scene tiltedSquare() {
   SceneBuilder builder;
   Material emitting = blackMaterial();
   emitting.emission = {0.3f, 0.6f, 0.9f};
-
-  Mesh mesh;
-  mesh.positions = {{-2, -2, 0}, {2, -1.7f, 0}, {0.3f, 2, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  mesh.materials = {builder.add(emitting)};
-  builder.add(mesh);
+  builder.add(quad({-2, -1.7f, 0}, {1.7f, -2, 0}, {2, 1.7f, 0}, {-1.7f, 2, 0}, 0), emitting);
   builder.lookFrom({0, 0, 5}).fov = 60;
   return builder.build();
 }
 
 class ErrorChannel : public testing::TestWithParam<Mode> {};
 
-// The share p of samples that hit the triangle gives the error of a pixel,
-// r sqrt(p (1 - p) / (n - 1)) for the root mean square r of the triangle's three colors. The
+// The share p of samples that hit the square gives the error of a pixel,
+// r sqrt(p (1 - p) / (n - 1)) for the root mean square r of its three colors. The
 // squares of errors are averaged within kPoolReach.
 TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
   const double radiance = std::sqrt((0.3 * 0.3 + 0.6 * 0.6 + 0.9 * 0.9) / 3);
   RenderOptions o = withErrors(GetParam());
   o.spp = 16;
   o.channels = o.channels.with(Channel::alpha);
-  const Film film = render(discScene(), o);
+  const Film film = render(tiltedSquare(), o);
   const auto errors = film.channels.floats(Channel::error),
              hits = film.channels.floats(Channel::alpha);
 
@@ -72,7 +67,7 @@ TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
 }
 
 TEST_P(ErrorChannel, IsInfiniteForOneSample) {
-  const Film film = render(discScene(), withErrors(GetParam()));
+  const Film film = render(tiltedSquare(), withErrors(GetParam()));
   const auto errors = film.channels.floats(Channel::error);
   for (std::size_t i = 0; i < errors.size(); i += 2) EXPECT_EQ(errors[i], kInfinity);
 }

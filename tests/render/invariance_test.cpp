@@ -44,10 +44,6 @@ TEST_P(Invariance, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   }
 }
 
-TEST_P(Invariance, NoPixelIsNonFinite) {
-  EXPECT_EQ(render(scene_, smallOptions()).stats.nonFinitePixels, 0u);
-}
-
 // The picture is large enough that some of the rays of its long chains hit edges.
 TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
   RenderOptions o = smallOptions({200, 120});

@@ -1,5 +1,5 @@
 // The layers of surfaces, by the integral of the GGX lobe and by closed forms, in packets and
-// reference: what each layer sends out and leaves for those below. And light is linear.
+// reference: what each layer sends out and leaves for those below.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,6 @@
 #include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
-#include "sanitized.h"
 
 namespace whit::test {
 namespace {
@@ -323,26 +322,11 @@ TEST(Layers, OcclusionHidesTheReflectedSky) {
   expectMeans(scene, 0, 0, o);
 }
 
-// A lobe of roughness 0.24 is no mirror where rays sample it: a lamp's panel of radiance 1 that
-// fills half of the view of the mirrored ray is blurred. Both halves of the sky are even.
-TEST(Layers, SampledLobesAreBlurredBeyondThePixel) {
-  RenderOptions o = plain();
-  o.glossy = 64;
-  Scene floor = underEvenSky(shadedAs(dielectric(0, 0.24f), {}));
-  expectMeans(seenAt(floor, 0.6), albedoByFacets(0.04, 1, 0.24, 0.6), 1e-3, o);
-
-  for (const float roughness : {0.03f, 0.05f, 0.1f, 0.24f}) {
-    EXPECT_TRUE(plastic(0, 0.9f, roughness).scatters(EffectSet::all()));
-    EXPECT_EQ(roughness * roughness > kSmoothAlpha, roughness > 0.03f);
-  }
-}
-
-// Spheres of roughness 0 to 0.5 in steps of 0.02 over a checkered floor: neighbors differ little,
+// Spheres of roughness 0 to 0.5 in steps of 0.02 over a floor: neighbors differ little,
 // and none by much more than those before and after it.
 TEST(Layers, NeighborsInARowOfRoughnessesDifferSmoothly) {
-  std::vector<double> means;
-  std::vector<Image> pictures;
-
+  std::vector<double> steps;
+  Image before;
   for (int i = 0; i <= 25; ++i) {
     GltfMaterial metal;
     metal.base = Rgb(0.9f);
@@ -359,160 +343,23 @@ TEST(Layers, NeighborsInARowOfRoughnessesDifferSmoothly) {
 
     RenderOptions o = plain();
     o.size = ImageSize{48, 32};
-    pictures.push_back(render(builder.build(), o).image);
-  }
+    Image image = render(builder.build(), o).image;
+    // Highlights of the sun are left out: they are wider and darker with each step.
+    for (Rgb& pixel : image.pixels) pixel = min(pixel, Rgb(1.0f));
 
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < pictures.size(); ++i) {
     double sum = 0;
-    for (std::size_t k = 0; k < pictures[i].pixels.size(); ++k) {
-      // Highlights of the sun are left out: they are wider and darker with each step.
-      const Rgb a = min(pictures[i].pixels[k], Rgb(1.0f)),
-                b = min(pictures[i - 1].pixels[k], Rgb(1.0f));
-      sum += maxComponent(abs(a - b));
+    for (std::size_t k = 0; k < before.pixels.size(); ++k) {
+      sum += maxComponent(abs(image.pixels[k] - before.pixels[k]));
     }
-    steps.push_back(sum / static_cast<double>(pictures[i].pixels.size()));
+    steps.push_back(sum / static_cast<double>(image.pixels.size()));
+    before = std::move(image);
   }
 
-  // The mixture goes through 13 steps: no step is more than a sixth of all of them.
+  // The mixture goes through 13 steps: no step is more than a sixth of all of them. The first
+  // picture has none before it.
   const double all = std::accumulate(steps.begin(), steps.end(), 0.0);
   EXPECT_GT(all, 0.01);
   for (const double step : steps) EXPECT_LT(step, all / 6);
-}
-
-// Materials of all kinds, as numbers decide.
-Material anyMaterial(Numbers& numbers) {
-  const auto color = [&] {
-    return Rgb(Vec3d(numbers.in(0, 1), numbers.in(0, 1), numbers.in(0, 1)));
-  };
-  const auto maybe = [&](double chance) { return numbers.in(0, 1) < chance; };
-
-  Material m = diffuseMaterial(0);
-  m.diffuse = color();
-  if (maybe(0.7)) m.specular = color() * (maybe(0.5) ? 0.1f : 1.0f);
-  m.roughness = static_cast<float>(numbers.in(0, 1));
-  if (maybe(0.3)) m.mirror = m.mirrorGrazing = color() * 0.4f;
-  if (maybe(0.3)) m.mirrorGrazing = color();
-  if (maybe(0.2)) m.transmission = color();
-
-  m.coat = maybe(0.3);
-  m.thin = maybe(0.3);
-  m.diffuseReflection = maybe(0.8);
-  m.glossyReflection = maybe(0.8);
-  if (maybe(0.2)) m.coverage = static_cast<float>(numbers.in(0, 1));
-  m.castsShadow = m.blocksLight();
-  m.frosted = maybe(0.5);
-  return m;
-}
-
-struct Lighting {
-  std::vector<Light> lights;
-  float sky = 0, ambient = 0, emission = 0;
-};
-
-// Balls on a floor. All lights are there in each of the pictures, since the number of a light
-// decides on its random points; those that are out have no intensity.
-Scene litScene(int seed, const Lighting& lighting) {
-  Numbers numbers(static_cast<unsigned>(seed));
-  SceneBuilder builder;
-  builder.add(floorAt(0, 6, builder.add(anyMaterial(numbers))));
-  for (int i = 0; i < 4; ++i) {
-    const Vec3d center{numbers.in(-1.5, 1.5), numbers.in(0.3, 1.5), numbers.in(-1.5, 1)};
-    const Affine map = Affine::translation(center) * Affine::scaling(Vec3d(numbers.in(0.2, 0.7)));
-    builder.add(exactSphere(builder.add(anyMaterial(numbers)), map));
-  }
-
-  Material lamp = diffuseMaterial(0.3f);
-  lamp.emission = Rgb(lighting.emission);
-  builder.add(ceilingAt(3, 1, builder.add(lamp)));
-
-  if (lighting.sky > 0) {
-    Sky& sky = builder.description.sky;
-    sky.kind = Sky::Kind::gradient;
-    sky.zenith = Rgb(0.2f, 0.4f, 1.0f) * lighting.sky;
-    sky.horizon = Rgb(lighting.sky);
-    sky.ground = Rgb(0.1f) * lighting.sky;
-  }
-
-  Ambient& ambient = builder.description.ambient;
-  ambient.up = Rgb(1.0f, 0.8f, 0.6f) * lighting.ambient;
-  ambient.down = Rgb(0.3f) * lighting.ambient;
-  ambient.occlusion = seed % 2 == 0 ? 1.0f : 0.0f;
-  builder.description.lights = lighting.lights;
-
-  builder.lookFrom({0, 1.5f, 5}, {0, 0.6f, 0});
-  return builder.build();
-}
-
-// Options of all kinds but those that look at the brightness of the picture: --adaptive, and
-// --light-cutoff, by which a light may be too dark to count.
-RenderOptions anyOptions(Numbers& numbers) {
-  const auto one = [&](const std::vector<int>& choices) {
-    return choices[static_cast<std::size_t>(numbers.in(0, 1) *
-                                            static_cast<double>(choices.size()))];
-  };
-
-  RenderOptions o = plain();
-  o.size = ImageSize{12, 8};
-  o.spp = one({1, 1, 2, 4});
-  o.depth = one({0, 1, 2, 4});
-  o.glossy = one({0, 0, 1, 4});
-  o.indirect = one({0, 0, 1, 2});
-  o.ambientSamples = one({0, 0, 1, 4});
-  o.lightSamples = one({1, 1, 4});
-
-  if (one({0, 1}) == 1) o.cutoff = 1e-3f;
-  if (one({0, 0, 1}) == 1) o.roulette = 0.3f;
-  o.shading.terminator = one({0, 1}) == 1;
-  if (one({0, 1}) == 1) o.shading.fresnel = FresnelModel::schlick;
-  o.packet = one({1, 8});
-  return o;
-}
-
-TEST(LightIsLinear, InRandomScenesWithAnyOptions) {
-  // Sanitizers look for faults of memory, which few scenes show as well as many.
-  constexpr int kScenes = kSanitized ? 40 : 200;
-  for (int seed = 0; seed < kScenes; ++seed) {
-    Numbers numbers(static_cast<unsigned>(10000 + seed));
-    const RenderOptions o = anyOptions(numbers);
-
-    Lighting all;
-    for (int i = 0; i < 3; ++i) {
-      Light light =
-          lightAt({static_cast<float>(numbers.in(-3, 3)), 4, static_cast<float>(numbers.in(-1, 4))},
-                  static_cast<float>(numbers.in(1, 20)));
-      if (i == 1) light = sun({0.3f, -1, -0.4f}, 1);
-      light.radius = 0.3f;
-      all.lights.push_back(light);
-    }
-    all.sky = all.ambient = all.emission = 1;
-
-    // Each light is in one of two halves.
-    Lighting halves[2] = {all, all};
-    for (std::size_t i = 0; i < all.lights.size(); ++i) {
-      halves[numbers.in(0, 1) < 0.5 ? 0 : 1].lights[i].intensity = Rgb(0.0f);
-    }
-    for (float Lighting::*part : {&Lighting::sky, &Lighting::ambient, &Lighting::emission}) {
-      halves[numbers.in(0, 1) < 0.5 ? 0 : 1].*part = 0;
-    }
-
-    const bool packets = seed % 4 != 0;
-    std::vector<Image> images;
-    for (const Lighting& lighting : {halves[0], halves[1], all}) {
-      images.push_back(render(litScene(seed, lighting), o, packets).image);
-    }
-
-    double brightest = 0, worst = 0;
-    for (std::size_t k = 0; k < images[2].pixels.size(); ++k) {
-      const Rgb sum = images[0].pixels[k] + images[1].pixels[k], both = images[2].pixels[k];
-      brightest = std::max(brightest, double{maxComponent(both)});
-      worst = std::max(worst, maxComponent(abs(sum - both)) / (0.1 + maxComponent(both)));
-    }
-
-    // Roundings of the sums of a path.
-    EXPECT_LT(worst, 1e-5) << "scene " << seed << (packets ? " packets" : " reference");
-    EXPECT_GT(brightest, 0) << seed;
-  }
 }
 
 }  // namespace

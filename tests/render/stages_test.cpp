@@ -72,16 +72,6 @@ TEST(LargeScenes, SponzaAgreesWithTheReference) {
   expectPicturesAgree("sponza-mirror");
 }
 
-TEST_P(StagesOfScenes, TargetsAgreeWithEachOther) {
-  const Image expected = render(scene_, smallOptions()).image;
-  forEachTarget([&](const std::string& target) {
-    RenderOptions o = smallOptions();
-    o.simd = target;
-    const ImageDifference d = compareImages(render(scene_, o).image, expected);
-    EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct);
-  });
-}
-
 INSTANTIATE_TEST_SUITE_P(Shipped, StagesOfScenes, testing::ValuesIn(smallScenes()), sceneName);
 
 }  // namespace
