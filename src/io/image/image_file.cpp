@@ -97,6 +97,23 @@ void sanitise(const std::string& path, RawImage& raw, Warnings& warnings) {
   warnings.add("infinite image value, taken as 65504", path, infinite);
 }
 
+// Makes premultiplied colors straight. Colors without coverage stay: they are light that no texture
+// can show.
+void divideByAlpha(RawImage& raw) {
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  if (channels % 2 != 0) return;
+
+  for (const auto i : indices(raw.values)) {
+    const float alpha = raw.values[i - i % channels + channels - 1];
+    const bool isColor = i % channels != channels - 1;
+    if (isColor && alpha > 0) raw.values[i] /= alpha;
+  }
+}
+
+RawImage decodeFile(const std::string& path, const ImageLimits& limits) {
+  return isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
+}
+
 }  // namespace
 
 bool isExrFile(const std::string& path) { return readBeginning(path, 4) == "\x76\x2f\x31\x01"; }
@@ -139,7 +156,14 @@ RawImage startImage(const std::string& path, std::int64_t width, std::int64_t he
 }
 
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
-  RawImage raw = isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
+  RawImage raw = decodeFile(path, limits);
+  sanitise(path, raw, warnings);
+  return raw;
+}
+
+RawImage readStraightImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
+  RawImage raw = decodeFile(path, limits);
+  divideByAlpha(raw);
   sanitise(path, raw, warnings);
   return raw;
 }

@@ -42,9 +42,13 @@ struct RawImage {
   std::size_t pixels() const { return cellsOf(width, height); }
 };
 
-// Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be
-// read, badScene if it is not a valid image, limit if it is larger than `limits` allow.
+// Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR, whose colors are premultiplied by alpha
+// while those of other files are straight. Throws Error(io) if the file cannot be read, badScene if
+// it is not a valid image, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
+
+// The same with straight colors, which textures have: those of an EXR are divided by alpha.
+RawImage readStraightImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
 // Decodes a file that is in memory: PNG, JPEG, WebP, BMP or Radiance HDR. `name` is for errors.
 RawImage decodeRawImage(const std::string& name, FileBytes file, const ImageLimits& limits,
