@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
+#include "io/image/texture_from_image.h"
 
 namespace whit {
 
@@ -195,7 +196,11 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
   }
 
   Image image(source.width, source.height, source.window);
-  for (const auto i : indices(image.pixels)) image.pixels[i] = linearPixel(source.raw, i);
+  for (const auto i : indices(image.pixels)) {
+    image.pixels[i] = linearPixel(source.raw, i);
+    // Codes are of straight colors.
+    if (!source.raw.linear) image.pixels[i] *= valueAt(source.raw, i, 3);
+  }
   return image;
 }
 

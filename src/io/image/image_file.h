@@ -70,8 +70,9 @@ inline Rgb linearPixel(const RawImage& raw, std::size_t i) {
   return Rgb(linear[raw.codes[first]], linear[raw.codes[green]], linear[raw.codes[blue]]);
 }
 
-// Reads an image as linear RGB, see linearPixel(). An EXR keeps its data window (the part inside
-// the display window), and floats keep their bits, NaN and infinities included.
+// Reads an image as linear RGB, see linearPixel(), premultiplied by alpha. An EXR keeps its data
+// window (the part inside the display window), and floats keep their bits, NaN and infinities
+// included.
 Image readImage(const std::string& path, const ImageLimits& limits);
 
 // Storage of an EXR's pixels: floats with lossless compression or without any, half floats (values
