@@ -169,7 +169,7 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
         raw = imageOf(*source.given, source.where);
       } else {
         raw = readNamedAt(source.lenient ? "" : source.where,
-                          [&] { return readRawImage(source.path, limits(), warnings_); });
+                          [&] { return readStraightImage(source.path, limits(), warnings_); });
       }
     } catch (const Error& error) {
       if (!source.lenient || error.status() == ExitStatus::limit) throw;

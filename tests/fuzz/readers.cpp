@@ -175,7 +175,7 @@ void readImageFile(const fs::path& file) {
   limits.budget = &budget;
   Warnings warnings;
 
-  const RawImage raw = readRawImage(file.string(), limits, warnings);
+  const RawImage raw = readStraightImage(file.string(), limits, warnings);
   for (const float value : raw.values) {
     require(value >= 0 && std::isfinite(value), "a texel that is no radiance");
   }

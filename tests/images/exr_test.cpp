@@ -187,6 +187,30 @@ TEST_F(ExrTest, HalvesAndAlphaAreRead) {
   EXPECT_EQ(image.values, (std::vector{0.5f, 65504.0f, std::ldexp(1.0f, -24), 0.25f}));
 }
 
+// OpenEXR's colors are premultiplied, and those of textures are not. Without coverage there is no
+// color to divide, and quotients beyond floats are infinite.
+TEST_F(ExrTest, ColorsOfTexturesAreDividedByAlpha) {
+  struct Stored {
+    std::map<std::string, float> channels;
+    std::vector<float> texel;
+  };
+  constexpr float kLargestHalf = 65504;  // stands for infinity
+  for (const Stored& s :
+       {Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0.1f}, {"A", 0.5f}}, {1, 0.5f, 0.2f, 0.5f}},
+        Stored{{{"Y", 0.5f}, {"A", 0.25f}}, {2, 0.25f}},
+        Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}, {"A", 0}}, {0.5f, 0.25f, 0, 0}},
+        Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}}, {0.5f, 0.25f, 0}},
+        Stored{{{"Y", 1e38f}, {"A", 0.125f}}, {kLargestHalf, 0.125f}}}) {
+    ForeignFile file{s.channels};
+    file.display = file.data = {{0, 0}, {0, 0}};
+    EXPECT_EQ(readStraightImage(write(file), limits_, warnings_).values, s.texel);
+  }
+
+  // Files of codes have straight colors already.
+  const std::string codes = save("a.png", png(1, 1, 8, 4, {0, 100, 50}));
+  EXPECT_EQ(readStraightImage(codes, limits_, warnings_).codes, (Bytes{100, 50}));
+}
+
 // Luminance alone is gray, and channels that are missing are black. Layers are named as Blender
 // names them; one that is no picture does not count.
 TEST_F(ExrTest, ColorsAreFoundByTheirNames) {

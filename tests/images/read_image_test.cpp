@@ -105,9 +105,10 @@ TEST_F(ReadImage, ReadImageDecodesSrgb) {
                   static_cast<float>(std::pow((90 / 255.0 + 0.055) / 1.055, 2.4)));
 }
 
-TEST_F(ReadImage, GrayIsSpreadAndAlphaDropped) {
+// The colors are premultiplied, as those of EXR files are.
+TEST_F(ReadImage, GrayIsSpreadAndMultipliedByAlpha) {
   const Image image = readImage(save("a.png", png(1, 1, 8, 4, {0, 255, 9})), limits_);
-  EXPECT_EQ(image.at(0, 0), Rgb(1, 1, 1));
+  EXPECT_EQ(image.at(0, 0), Rgb(9.0f / 255));
 }
 
 TEST_F(ReadImage, SideAndByteLimitsHold) {

@@ -316,6 +316,39 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   expectSeen(",'KHR_materials_volume':{'thicknessFactor':1}", (1 - 0.0502) * (0.5 + moved / 4));
 }
 
+// KHR_materials_specular: the color changes the reflectance at normal incidence alone, and the
+// factor that at grazing incidence too.
+TEST_F(GltfMaterials, ABlackSpecularColorKeepsGrazingReflection) {
+  candela_ = 0;
+  const auto expectSeen = [&](const std::string& extensions, double wanted,
+                              const std::string& metal = "'metallicFactor':0") {
+    SceneDescription d = loadMaterial(
+        "{'doubleSided':true,'pbrMetallicRoughness':{'baseColorFactor':[0,0,0,1],"
+        "'roughnessFactor':0," +
+        metal + "},'extensions':{" + extensions + "}}");
+    d.instances.at(0).toWorld = Affine::rotation({0, 1, 0}, 80);
+    d.sky.kind = Sky::Kind::color;
+    d.sky.zenith = Rgb(1.0f);
+    EXPECT_NEAR(pictureOf(std::move(d), 1)[0].x, wanted, kClose) << extensions << metal;
+  };
+
+  // Schlick's law at 80 degrees, with F0 = 0 and F90 = 1.
+  const double grazing = std::pow(1 - std::cos(80 * kPi / 180), 5);
+  const std::string black = "'KHR_materials_specular':{'specularColorFactor':[0,0,0]";
+  expectSeen("'KHR_materials_specular':{'specularColorFactor':[1,1,1]}", 0.04 + 0.96 * grazing);
+  expectSeen(black + "}", grazing);
+  expectSeen(black + ",'specularFactor':0.5}", 0.5 * grazing);
+  expectSeen(black + ",'specularFactor':0}", 0);
+  expectSeen(black + "},'KHR_materials_ior':{'ior':0}", grazing);
+
+  // Without an interface nothing is reflected.
+  expectSeen(black + "},'KHR_materials_ior':{'ior':1}", 0);
+
+  // The same from a texel, where maps say that the surface is no metal.
+  useRows({{"000000"}});
+  expectSeen(black + "}", grazing, "'metallicRoughnessTexture':{'index':0}");
+}
+
 TEST_F(GltfMaterials, SmoothSurfacesMirror) {
   candela_ = 0;
   const auto mirrored = [&](const std::string& pbr, const std::string& rest = "") {

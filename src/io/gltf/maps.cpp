@@ -33,7 +33,7 @@ class GltfImage {
       if (source_.error) std::rethrow_exception(source_.error);
       auto raw = std::make_shared<const RawImage>(
           source_.path.empty() ? decodeRawImage(source_.where, source_.bytes, limits, warnings_)
-                               : readRawImage(source_.path, limits, warnings_));
+                               : readStraightImage(source_.path, limits, warnings_));
       decoded_ = raw;
       return raw;
     } catch (const Error& error) {

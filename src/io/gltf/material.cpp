@@ -166,6 +166,10 @@ class GltfMaterialReader {
     m_.f90 = readNumber(specular["specularFactor"], 1);
     m_.specularColor =
         Rgb(step * step) * colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
+    // A lobe reflects a multiple of F0 at grazing incidence, which the color does not change. So
+    // black is the darkest color that a texel holds.
+    constexpr float kDarkest = 1.0f / (1023 * 1023);
+    if (step > 0 && maxComponent(m_.specularColor) < kDarkest) m_.specularColor = Rgb(kDarkest);
     m_.specularMap = texture(specular["specularTexture"]);
     m_.specularColorMap = texture(specular["specularColorTexture"]);
   }

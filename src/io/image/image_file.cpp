@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
+#include "io/image/texture_from_image.h"
 
 namespace whit {
 
@@ -97,6 +98,23 @@ void sanitise(const std::string& path, RawImage& raw, Warnings& warnings) {
   warnings.add("infinite image value, taken as 65504", path, infinite);
 }
 
+// Makes premultiplied colors straight. Colors without coverage stay: they are light that no texture
+// can show.
+void divideByAlpha(RawImage& raw) {
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  if (channels % 2 != 0) return;
+
+  for (const auto i : indices(raw.values)) {
+    const float alpha = raw.values[i - i % channels + channels - 1];
+    const bool isColor = i % channels != channels - 1;
+    if (isColor && alpha > 0) raw.values[i] /= alpha;
+  }
+}
+
+RawImage decodeFile(const std::string& path, const ImageLimits& limits) {
+  return isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
+}
+
 }  // namespace
 
 bool isExrFile(const std::string& path) { return readBeginning(path, 4) == "\x76\x2f\x31\x01"; }
@@ -139,7 +157,14 @@ RawImage startImage(const std::string& path, std::int64_t width, std::int64_t he
 }
 
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
-  RawImage raw = isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
+  RawImage raw = decodeFile(path, limits);
+  sanitise(path, raw, warnings);
+  return raw;
+}
+
+RawImage readStraightImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
+  RawImage raw = decodeFile(path, limits);
+  divideByAlpha(raw);
   sanitise(path, raw, warnings);
   return raw;
 }
@@ -171,7 +196,11 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
   }
 
   Image image(source.width, source.height, source.window);
-  for (const auto i : indices(image.pixels)) image.pixels[i] = linearPixel(source.raw, i);
+  for (const auto i : indices(image.pixels)) {
+    image.pixels[i] = linearPixel(source.raw, i);
+    // Codes are of straight colors.
+    if (!source.raw.linear) image.pixels[i] *= valueAt(source.raw, i, 3);
+  }
   return image;
 }
 

@@ -42,9 +42,13 @@ struct RawImage {
   std::size_t pixels() const { return cellsOf(width, height); }
 };
 
-// Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be
-// read, badScene if it is not a valid image, limit if it is larger than `limits` allow.
+// Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR, whose colors are premultiplied by alpha
+// while those of other files are straight. Throws Error(io) if the file cannot be read, badScene if
+// it is not a valid image, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
+
+// The same with straight colors, which textures have: those of an EXR are divided by alpha.
+RawImage readStraightImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
 // Decodes a file that is in memory: PNG, JPEG, WebP, BMP or Radiance HDR. `name` is for errors.
 RawImage decodeRawImage(const std::string& name, FileBytes file, const ImageLimits& limits,
@@ -66,8 +70,9 @@ inline Rgb linearPixel(const RawImage& raw, std::size_t i) {
   return Rgb(linear[raw.codes[first]], linear[raw.codes[green]], linear[raw.codes[blue]]);
 }
 
-// Reads an image as linear RGB, see linearPixel(). An EXR keeps its data window (the part inside
-// the display window), and floats keep their bits, NaN and infinities included.
+// Reads an image as linear RGB, see linearPixel(), premultiplied by alpha. An EXR keeps its data
+// window (the part inside the display window), and floats keep their bits, NaN and infinities
+// included.
 Image readImage(const std::string& path, const ImageLimits& limits);
 
 // Storage of an EXR's pixels: floats with lossless compression or without any, half floats (values

@@ -303,8 +303,7 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   for (const std::string& path : paths) {
     const Image part = readImage(path, limits);
     const bool isExr = extensionOf(path) == ".exr";
-    const std::vector<ImageLayer> layers =
-        isExr ? readLayers(path, limits) : std::vector<ImageLayer>();
+    const std::vector<ImageLayer> layers = readLayers(path, limits);
 
     // The first part determines the size of the image and its layers.
     if (covered.empty()) {
