@@ -109,8 +109,7 @@ TEST(CloseCalls, OfSidesAreDecidedByTheRay) {
     if (!hit.found()) continue;
     ++found;
 
-    const TriangleRecord& met = scene.triangles[hit.triangle];
-    const Vec3d n = cross(corner(met, 1) - corner(met, 0), corner(met, 2) - corner(met, 0));
+    const Vec3d n = faceOf(scene.triangles[hit.triangle]);
     const Vec3d terms{n.x * double{direction.x}, n.y * double{direction.y},
                       n.z * double{direction.z}};
 

@@ -12,6 +12,7 @@
 #include "accel/accel.h"
 #include "set_columns.h"
 #include "unit/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
@@ -22,23 +23,9 @@ constexpr int kSide = 32;
 // A crumpled sheet has whole numbers for x and y and halves for z, so that the middles of edges are
 // floats and rays reach them without any rounding: a ray hits both triangles, at one distance.
 Mesh sheet(std::mt19937& random) {
-  Mesh mesh;
-  mesh.materials = {0};
-  for (int y = 0; y <= kSide; ++y) {
-    for (int x = 0; x <= kSide; ++x) {
-      const float z = 0.5f * static_cast<float>(random() % 3);
-      mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), z});
-    }
-  }
-
-  for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x) {
-      const std::uint32_t a = y * (kSide + 1) + x, b = a + 1, c = a + kSide + 1, d = c + 1;
-      mesh.triangles.push_back({a, b, d});
-      mesh.triangles.push_back({a, d, c});
-    }
-  }
-  return mesh;
+  return verify::sheetOf(kSide + 1, kSide + 1, [&](int x, int y) {
+    return Vec3f(Vec3d(x, y, 0.5 * static_cast<double>(random() % 3)));
+  });
 }
 
 struct Rays {

@@ -27,11 +27,7 @@ struct Soup {
     return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
   }
 
-  void add(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), {a, b, c});
-    mesh.triangles.push_back({n, n + 1, n + 2});
-  }
+  void add(const Vec3f& a, const Vec3f& b, const Vec3f& c) { verify::addTriangle(mesh, {a, b, c}); }
 
   void addSquare(const Vec3f& corner, const Vec3f& x, const Vec3f& y) {
     add(corner, corner + x, corner + x + y);

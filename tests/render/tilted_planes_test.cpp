@@ -21,16 +21,10 @@ struct View {
 // Makes two by two squares of half the view's size around its center, facing along the second axis
 // of its turn.
 Mesh squares(const View& view) {
-  Mesh mesh;
-  for (int i = 0; i < 9; ++i) {
-    const Vec3d p = Vec3d(i % 3 - 1, 0, i / 3 - 1) * (view.size / 2);
-    mesh.positions.emplace_back(view.turn.vector(p) + view.center);
-  }
-  for (const std::uint32_t i : {0u, 1u, 3u, 4u}) {
-    mesh.triangles.push_back({i, i + 3, i + 4});
-    mesh.triangles.push_back({i, i + 4, i + 1});
-  }
-  return mesh;
+  return sheetOf(3, 3, [&](int x, int z) {
+    const Vec3d p = Vec3d(x - 1, 0, z - 1) * (view.size / 2);
+    return Vec3f(view.turn.vector(p) + view.center);
+  });
 }
 
 std::vector<View> views(std::initializer_list<double> sizes, double farthest) {
@@ -91,21 +85,13 @@ TEST(TiltedPlanes, H11_norAsInstances) {
 // A needle is as long as a plane is large, and its normal is the least certain.
 TEST(TiltedPlanes, H25_norAsNeedles) {
   for (const View& view : views({20, 1e3, 1e5}, 0)) {
-    Mesh mesh;
     // Needles side by side make up a strip that is wider than the view.
-    constexpr std::uint32_t kNeedles = 64;
+    constexpr int kNeedles = 64;
     const double width = 12 * view.distance() / kNeedles;
-    for (std::uint32_t i = 0; i <= kNeedles; ++i) {
-      const double x = width * (i - kNeedles / 2.0);
-      for (const double z : {-view.size / 2, view.size / 2}) {
-        mesh.positions.emplace_back(view.turn.vector({x, 0, z}));
-      }
-
-      if (i == 0) continue;
-      mesh.triangles.push_back({2 * i - 2, 2 * i - 1, 2 * i + 1});
-      mesh.triangles.push_back({2 * i - 2, 2 * i + 1, 2 * i});
-    }
-    expectLit(view, std::move(mesh));
+    expectLit(view, sheetOf(2, kNeedles + 1, [&](int end, int i) {
+                const double x = width * (i - kNeedles / 2.0), z = view.size * (end - 0.5);
+                return Vec3f(view.turn.vector({x, 0, z}));
+              }));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "unit/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -21,9 +22,7 @@ const std::string kBadIndex = "triangle with a vertex index out of range dropped
 TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   Mesh mesh = square();
   const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), {a, b, c});
-    mesh.triangles.push_back({first, first + 1, first + 2});
+    verify::addTriangle(mesh, {a, b, c});
   };
 
   mesh.triangles.push_back({1, 1, 2});             // repeated index
