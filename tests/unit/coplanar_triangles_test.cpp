@@ -10,7 +10,6 @@
 #include "pi.h"
 #include "render/facetted_sphere.h"
 #include "unit/scene_builder.h"
-#include "verify/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -237,8 +236,10 @@ Builder world(const std::vector<std::vector<Mesh>>& objects) {
   return builder;
 }
 
+const Builder kDecalInAFloor = world({{tile(0, 0, 10, 10), tile(6, 1, 1, 1)}});
+
 TEST(CoplanarTriangles, ADecalInAFloor) {
-  const Scene scene = world({{tile(0, 0, 10, 10), tile(6, 1, 1, 1)}}).scene();
+  const Scene scene = kDecalInAFloor.scene();
   const CoplanarTriangles found = foundAmong(scene);
   // The decal lies in the floor's first triangle, which touches the second.
   EXPECT_EQ(textOf(partnersIn(found, scene)), "0: 1 2 3\n1: 0\n2: 0 3\n3: 0 2\n");
@@ -252,6 +253,18 @@ TEST(CoplanarTriangles, ADecalInAFloor) {
 
   EXPECT_EQ(CoplanarTriangles().bytes(), 0u);
   EXPECT_TRUE(CoplanarTriangles().partnersOf({0, kNoInstance}).empty());
+}
+
+TEST(CoplanarTriangles, OverlapInOnePlane) {
+  std::vector<Mesh> tiles;
+  for (int i = 0; i < 36; ++i) tiles.push_back(tile(i % 6, i / 6, 1, 1));
+  const std::vector<Mesh> decal{tile(2.25, 2.25, 0.5, 0.5)};
+
+  expectCoplanar(kDecalInAFloor, 4);
+  expectCoplanar(world({box({0, 0, 0}, {1, 1, 1}), box({1, 0.25, 0.25}, {1, 0.5, 0.5})}), 4);
+  // These are the decal, the tile below it, and the eight tiles around it, whose triangles touch
+  // the lower tile's two.
+  expectCoplanar(world({tiles, decal}), 2 + 2 + 14);
 }
 
 TEST(CoplanarTriangles, AreNoneWhereNothingOverlaps) {
@@ -405,9 +418,17 @@ TEST(CoplanarTriangles, RotatedAndShearedNeedlesAreAsDefined) {
 }
 
 TEST(CoplanarTriangles, ManyTilesInOnePlane) {
-  Builder builder = world({{verify::sheetOf(201, 201, [](double x, double z) {
-    return Vec3f(Vec3d{0.1 * x, 0, 0.1 * z});
-  })}});
+  constexpr std::uint32_t kTiles = 200, kCorners = kTiles + 1;
+  Mesh floor;
+  for (std::uint32_t i = 0; i < kCorners * kCorners; ++i) {
+    const std::uint32_t x = i % kCorners, y = i / kCorners;
+    floor.positions.emplace_back(Vec3d{0.1 * x, 0, 0.1 * y});
+    if (x == kTiles || y == kTiles) continue;
+    floor.triangles.push_back({i, i + kCorners, i + kCorners + 1});
+    floor.triangles.push_back({i, i + kCorners + 1, i + 1});
+  }
+
+  Builder builder = world({{floor}});
   EXPECT_TRUE(foundAmong(builder.scene()).empty());
 
   // One decal lies strictly within a tile. Coplanar are its two triangles, the tile's two, and the

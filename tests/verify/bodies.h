@@ -23,13 +23,6 @@ inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint3
   return mesh;
 }
 
-// Appends a triangle that shares no corner with others.
-inline void addTriangle(Mesh& mesh, const Vec3f (&corners)[3]) {
-  const std::uint32_t first = size32(mesh.positions);
-  mesh.positions.insert(mesh.positions.end(), std::begin(corners), std::end(corners));
-  mesh.triangles.push_back({first, first + 1, first + 2});
-}
-
 // The same mesh without shared corners.
 inline Mesh unshared(const Mesh& mesh) {
   Mesh result;
@@ -42,24 +35,7 @@ inline Mesh unshared(const Mesh& mesh) {
 
 // The plane y = 0 between -32 and 32, in 64 x 64 cells.
 inline Mesh grid() {
-  Mesh mesh;
-  mesh.materials = {0};
-  constexpr int kCells = 64, kHalf = kCells / 2;
-
-  for (int y = 0; y <= kCells; ++y) {
-    for (int x = 0; x <= kCells; ++x) {
-      mesh.positions.emplace_back(Vec3d(x - kHalf, 0, y - kHalf));
-    }
-  }
-
-  for (std::uint32_t y = 0; y < kCells; ++y) {
-    for (std::uint32_t x = 0; x < kCells; ++x) {
-      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
-      mesh.triangles.push_back({a, c, d});
-      mesh.triangles.push_back({a, d, b});
-    }
-  }
-  return mesh;
+  return sheetOf(65, 65, [](int x, int y) { return Vec3f(Vec3d(x - 32, 0, y - 32)); });
 }
 
 inline Scene sceneOf(Mesh mesh, const Material& material) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "verify/bodies.h"
+#include "verify/scaled_scene.h"
 
 namespace whit::verify {
 
@@ -135,28 +136,11 @@ void schedule(Run& run) {
   });
 }
 
-Vec3f scaled(const Vec3f& v, int k) {
-  return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
-}
-
 void scaling(Run& run) {
   const Image expected = pictureOfRoom(small(run));
   for (const int k : {-20, -3, 1, 20}) {
-    SceneDescription d = room();
-    for (Mesh& mesh : d.objects[0].meshes) {
-      for (Vec3f& p : mesh.positions) p = scaled(p, k);
-    }
-
-    // Light falls off with the square of the distance, so that intensities grow by the square.
-    for (Light& light : d.lights) {
-      light.position = scaled(light.position, k);
-      light.intensity = scaled(light.intensity, 2 * k);
-      light.radius = std::ldexp(light.radius, k);
-    }
-
-    d.cameras[0].eye = scaled(d.cameras[0].eye, k);
-    d.cameras[0].at = scaled(d.cameras[0].at, k);
-    countOtherPixels(run, pictureOfRoom(small(run), std::move(d)), expected, concat("times 2^", k));
+    countOtherPixels(run, pictureOfRoom(small(run), scaled(room(), k)), expected,
+                     concat("times 2^", k));
   }
 }
 

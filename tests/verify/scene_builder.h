@@ -140,6 +140,26 @@ inline Mesh floorAt(float y, float half, std::uint32_t material = 0) {
 inline Mesh ceilingAt(float y, float half, std::uint32_t material = 0) {
   return quad({-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}, material);
 }
+// Appends a triangle that shares no corner with others.
+inline void addTriangle(Mesh& mesh, const Vec3f (&corners)[3]) {
+  const std::uint32_t first = size32(mesh.positions);
+  mesh.positions.insert(mesh.positions.end(), std::begin(corners), std::end(corners));
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+// A sheet of columns times rows corners, of which at(x, y) is one, with two triangles in each cell.
+template <typename At>
+Mesh sheetOf(std::uint32_t columns, std::uint32_t rows, const At& at) {
+  Mesh mesh;
+  mesh.materials = {0};
+  for (std::uint32_t i = 0; i < columns * rows; ++i) {
+    const std::uint32_t x = i % columns, y = i / columns, below = i + columns;
+    mesh.positions.push_back(at(x, y));
+    if (x + 1 == columns || y + 1 == rows) continue;
+    mesh.triangles.push_back({i, below, below + 1});
+    mesh.triangles.push_back({i, below + 1, i + 1});
+  }
+  return mesh;
+}
 // Two faces with the medium in between. Large faces are as good as infinite, but the coordinates of
 // their corners make offsets large.
 inline void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_t material,
