@@ -35,35 +35,35 @@ struct PlacedSphere {
   std::uint32_t instance = 0, item = 0, number = 0;
 };
 
-bool isBefore(const Vec3f& a, const Vec3f& b) {
-  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-}
+// The bits of a corner's numbers: its position and, where an alpha map cuts the material, both
+// pairs of texture coordinates. Bits of numbers that are not finite are equal to themselves.
+using PlacedCorner = std::array<std::uint32_t, 7>;
 
 // A triangle by its baked corners in ascending order, and what must be equal too for one of two in
 // the same place to be redundant. Which of them a ray meets would be left to the order in which
 // they are tested, and with it the last bits of the picture.
 struct PlacedTriangle {
-  PlacedTriangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, std::uint32_t number,
-                 bool bothSides)
-      : corners{a, b, c}, material(number) {
+  PlacedTriangle(const std::array<PlacedCorner, 3>& all, std::uint32_t number, bool bothSides,
+                 bool isCut)
+      : corners(all), material(number), used(isCut ? 7 : 3) {
     // The winding turns around if sorting swaps an odd number of pairs.
-    const bool odd = isBefore(b, a) != isBefore(c, a);
-    turned = !bothSides && odd != isBefore(c, b);
-    std::ranges::sort(corners, isBefore);
+    const auto& [a, b, c] = all;
+    const bool odd = (b < a) != (c < a);
+    turned = !bothSides && odd != (c < b);
+    std::ranges::sort(corners);
   }
   bool operator==(const PlacedTriangle&) const = default;
   std::uint64_t hash() const {
     std::uint64_t all = material;
-    for (const Vec3f& p : corners) {
-      // Adding 0 turns -0 into +0, because both are the same position.
-      for (const float x : {p.x, p.y, p.z})
-        all = mixed64(all + std::bit_cast<std::uint32_t>(x + 0.0f));
+    for (const PlacedCorner& corner : corners) {
+      for (const auto i : indices(used)) all = mixed64(all + corner[i]);
     }
     return all;
   }
 
-  std::array<Vec3f, 3> corners;
+  std::array<PlacedCorner, 3> corners;
   std::uint32_t material;
+  std::uint32_t used;   // so many of a corner's numbers count, and the others are 0
   bool turned = false;  // its corners run in the opposite direction, and one side alone is seen
 };
 
@@ -85,6 +85,21 @@ void dropSingles(std::vector<HashedPlace>& places) {
 bool bends(const Object& object) {
   return std::ranges::any_of(object.meshes,
                              [](const Mesh& mesh) { return mesh.deformation != nullptr; });
+}
+
+PlacedCorner placedCorner(const Source& source, const std::vector<Vec3f>& positions,
+                          std::uint32_t vertex, bool isCut) {
+  const Vec3f& p = positions[source.firstVertex + vertex];
+  const auto uvOf = [&](const std::vector<Vec2f>& uvs) {
+    return isCut && !uvs.empty() ? uvs[vertex] : Vec2f{};
+  };
+  const Vec2f uv = uvOf(source.mesh->uvs), second = uvOf(source.mesh->secondUvs);
+
+  // Adding 0 turns -0 into +0, because both are the same number.
+  PlacedCorner corner;
+  const std::array numbers{p.x, p.y, p.z, uv.x, uv.y, second.x, second.y};
+  for (const auto i : indices(numbers)) corner[i] = std::bit_cast<std::uint32_t>(numbers[i] + 0.0f);
+  return corner;
 }
 
 class Baker {
@@ -283,7 +298,8 @@ class Baker {
   }
 
   // Among coincident triangles we keep the last one, because Embree would report that one. Glass
-  // keeps all: two faces are two boundaries. So do meshes that bend: the triangles may part.
+  // keeps all: two faces are two boundaries. So do meshes that bend: the triangles may part. An
+  // alpha map that cuts two triangles in different places shows the one through holes of the other.
   void dropCoincident(std::size_t g) {
     const std::vector<Vec3f>& position = scene_.geometries[g].position;
     struct Place {
@@ -305,11 +321,15 @@ class Baker {
     const auto triangle = [&](std::uint64_t k) {
       const auto& [s, i] = places[k];
       const Source& source = sources_[g][s];
+      const std::uint32_t number = source.mesh->material(i);
+      const Material& material = scene_.materials[number];
+      const bool isCut = material.alphaMap != kNoTexture;
+
       const auto& [a, b, c] = source.mesh->triangles[i];
-      const Vec3f* own = position.data() + source.firstVertex;
-      const std::uint32_t material = source.mesh->material(i);
-      return PlacedTriangle(own[a], own[b], own[c], material,
-                            scene_.materials[material].doubleSided);
+      return PlacedTriangle(
+          {placedCorner(source, position, a, isCut), placedCorner(source, position, b, isCut),
+           placedCorner(source, position, c, isCut)},
+          number, material.doubleSided, isCut);
     };
 
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.

@@ -190,6 +190,50 @@ TEST_F(Assimp, TexturesLieBesideTheModel) {
   }
 }
 
+// The library calls the material of meshes without one "DefaultMaterial".
+TEST_F(Assimp, MaterialsOfAnyNameKeepTheirColor) {
+  const std::string fbx = replaced(tetra("fbx"), "\tC: \"OP\",4,3, \"DiffuseColor\"\n", "");
+  const std::string dae = replaced(tetra("dae"), "<texture texture=\"p\" texcoord=\"UV\"/>",
+                                   "<color>0.8 0.1 0.1 1</color>");
+
+  for (const std::string name : {"", "DefaultMaterial"}) {
+    const SceneDescription scenes[] = {
+        loadBytes("fbx", replaced(fbx, "Material::red", "Material::" + name)),
+        loadBytes("dae", replaced(dae, "name=\"red\"", "name=\"" + name + "\""))};
+    for (const SceneDescription& scene : scenes) {
+      expectMembers(scene.materials.at(0), "{'diffuse': [0.8, 0.1, 0.1]}");
+    }
+  }
+
+  // The meshes have no material.
+  const SceneDescription bare[] = {
+      loadBytes("fbx", replaced(fbx, "\tC: \"OO\",3,2\n", "")),
+      loadBytes("dae", replaced(replaced(dae, "<library_materials>", "<library_materials/><extra>"),
+                                "</library_materials>", "</extra>"))};
+  for (const SceneDescription& scene : bare) {
+    EXPECT_EQ(scene.materials.at(0).name, kNoMaterialName);
+    expectMembers(scene.materials.at(0), "{'diffuse': 0.6}");
+  }
+}
+
+TEST_F(Assimp, ConstantSurfacesOfColladaEmitAndDoNothingElse) {
+  save("t.png", corpusFile("png/rgb.png"));
+  const std::string text =
+      replaced(replaced(tetra("dae"), "<lambert>", "<constant>"), "</lambert>", "</constant>");
+  const std::string black = "{'diffuse': 0, 'specular': 0, 'mirror': 0, 'mirrorGrazing': 0, ";
+
+  const std::string map = "<diffuse><texture texture=\"p\" texcoord=\"UV\"/></diffuse>";
+  const SceneDescription plain =
+      loadBytes("dae", replaced(text, map, "<emission><color>0.5 0.7 0.1 1</color></emission>"));
+  expectMembers(plain.materials.at(0), black + "'emission': [0.5, 0.7, 0.1]}");
+
+  const std::string emission =
+      replaced(replaced(map, "<diffuse>", "<emission>"), "</diffuse>", "</emission>");
+  const Material mapped = loadBytes("dae", replaced(text, map, emission)).materials.at(0);
+  expectMembers(mapped, black + "'emission': 1}");
+  EXPECT_NE(mapped.emissionMap, kNoTexture);
+}
+
 TEST_F(Assimp, NoFileOutsideOfTheFolderIsRead) {
   save("../secret.png", corpusFile("png/rgb.png"));
   const std::string text = replaced(tetra("dae"), "<init_from>t.png", "<init_from>../secret.png");

@@ -306,6 +306,17 @@ TEST_F(GltfSkin, VerticesFollowTheirJoints) {
                  {{0, 0, 0}, {0, 2, 0}, {-1, 1, 0}});
 }
 
+// Copies within the node would all be where the joints are.
+TEST_F(GltfSkin, CopiesOfItAreLeftOut) {
+  const std::string copies =
+      joined("'skin':0,'extensions':{'EXT_mesh_gpu_instancing':{",
+             "'attributes':{'TRANSLATION':", positions({1, 0, 0, 2, 0, 0}), "}}}");
+  const SceneDescription scene = loadText(replaced(text(), "'skin':0", copies));
+  EXPECT_EQ(scene.instances.size(), 1u);
+  expectTriangle(scene, {{0, 0, 0}, {0.5, 1.5, 0}, {-1, 1, 0}});
+  expectWarned("copies of a skinned mesh left out");
+}
+
 TEST_F(GltfSkin, JointsArePlacedByHand) {
   options_.instant.movable = {"/nodes/2"};
   Scene scene = bake(loadText(text("0,0,0,1")));

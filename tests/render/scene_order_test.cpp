@@ -9,6 +9,7 @@
 
 #include "io/scene_files.h"
 #include "reference/small_scenes.h"
+#include "render/data_map.h"
 #include "render/pipeline_laws.h"
 
 namespace whit::test {
@@ -61,6 +62,30 @@ TEST(SceneOrder, TrianglesOfAMeshComeInTheirOrder) {
       if (behind) object.meshes = {both, apart};
       one.place(std::move(object), places);
       expectOfOrder(one.build(), behind ? kEarly : kLate, behind ? "behind" : "before");
+    }
+  }
+}
+
+// Two squares of one material lie in one place. One shows the hole of its mask all over, and the
+// other one, before or behind it in the scene, an opaque texel.
+TEST(SceneOrder, OneOfTwoIsSeenInTheHolesOfTheOther) {
+  for (const bool blends : {false, true}) {
+    for (const float last : {0.25f, 0.75f}) {
+      SceneBuilder builder;
+      Material masked = emittingMaterial(kLate);
+      masked.alphaMap = builder.add(dataMap(2, {1, 0}));
+      if (blends) {
+        masked.coverageMap = masked.alphaMap;
+        masked.passClearTexels();
+      }
+
+      const std::uint32_t material = builder.add(masked);
+      for (const float u : {1 - last, last}) {
+        Mesh square = squareOfOrder(2, material);
+        square.uvs.assign(4, {u, 0.5f});
+        builder.add(std::move(square));
+      }
+      expectOfOrder(repaired(builder.describe()), kLate, blends ? "blended" : "masked");
     }
   }
 }

@@ -81,6 +81,25 @@ TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
   }
 }
 
+// The same square three times, the last one with other texture coordinates or another alpha of its
+// vertices: holes of an alpha map are elsewhere there.
+TEST(Repairing, MaskedTrianglesInEachOthersPlaceAreDroppedIfTheirHolesAreInOnePlace) {
+  for (const bool masked : {false, true}) {
+    for (const auto coordinates : {&Mesh::uvs, &Mesh::secondUvs}) {
+      SceneDescription description = sceneOf(square());
+      std::vector<Mesh>& meshes = description.objects[0].meshes;
+      meshes[0].*coordinates = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+      meshes.resize(3, meshes[0]);
+      (meshes[2].*coordinates)[0] = {0.5f, 0};
+      description.textures = {whiteTexture(TexelFormat::data)};
+      if (masked) description.materials[0].alphaMap = 0;
+
+      // Both triangles of a square have the corner that differs.
+      EXPECT_EQ(finalized(std::move(description)).triangles.size(), masked ? 4u : 2u);
+    }
+  }
+}
+
 // H27: a bad vertex drops only its triangles.
 TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
   const float inf = std::numeric_limits<float>::infinity();

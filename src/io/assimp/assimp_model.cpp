@@ -209,6 +209,28 @@ void convertMaps(aiMaterial& material, std::uint32_t& notes) {
   }
 }
 
+// Surfaces that a Collada file calls constant send out their emission and reflect no light.
+void leaveOutReflection(aiMaterial& material) {
+  setMember(material, aiColor4D(0, 0, 0, 1), AI_MATKEY_COLOR_DIFFUSE);
+  setMember(material, 1.0f, AI_MATKEY_REFRACTI);
+}
+
+// True if the library made the material up for meshes without one. STL and OFF files have none.
+// Materials of the other files may have its name, but hardly its gray.
+bool isMadeUp(const aiMaterial& material, const std::string& extension) {
+  if (extension == ".stl" || extension == ".off") return true;
+
+  constexpr float kGrays[] = {0.6f, 0.8f};  // the reader of FBX has a gray of its own
+  aiString name;
+  aiColor3D color(kGrays[0]);  // stays if the material has no color
+  material.Get(AI_MATKEY_NAME, name);
+  material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+
+  return name == aiString(AI_DEFAULT_MATERIAL_NAME) && contains(kGrays, color.r) &&
+         color == aiColor3D(color.r) && !hasMap(material, aiTextureType_DIFFUSE) &&
+         !hasMap(material, aiTextureType_BASE_COLOR);
+}
+
 // Meshes without a material get that of models without materials.
 void makeDefaultMaterial(const aiScene& scene, unsigned index) {
   const auto isColored = [&](const aiMesh* mesh) {
@@ -223,19 +245,21 @@ void makeDefaultMaterial(const aiScene& scene, unsigned index) {
   setMember(material, aiColor4D(gray, gray, gray, 1), AI_MATKEY_COLOR_DIFFUSE);
 }
 
-void convertMaterials(const aiScene& scene, std::uint32_t& notes) {
+void convertMaterials(const aiScene& scene, const std::string& extension, std::uint32_t& notes) {
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     aiMaterial& material = *scene.mMaterials[i];
+    int shading = 0;
+    material.Get(AI_MATKEY_SHADING_MODEL, shading);
     convertFactors(material, notes);
+    // The reader of 3DS takes shading that it does not know for none.
+    if (shading == aiShadingMode_NoShading && extension == ".dae") leaveOutReflection(material);
     convertMaps(material, notes);
 
     aiString name;
     material.Get(AI_MATKEY_NAME, name);
     makePrintable(name);
     setMember(material, name, AI_MATKEY_NAME);
-
-    const bool isDefault = name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME);
-    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) makeDefaultMaterial(scene, i);
+    if (isMadeUp(material, extension)) makeDefaultMaterial(scene, i);
   }
 }
 
@@ -321,7 +345,7 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   }
 
   makePrintable(*scene.mRootNode);
-  convertMaterials(scene, notes);
+  convertMaterials(scene, extension, notes);
   leaveOutSkins(scene, notes);
   turnUp(scene);
 

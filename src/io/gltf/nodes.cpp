@@ -301,6 +301,8 @@ class TreeReader {
     const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
     const Deformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
+      // Joints alone place the mesh, so that its copies would all be in one place.
+      if (copies.exists()) warn("copies of a skinned mesh left out", index);
       content_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
       return;
     }
