@@ -106,6 +106,21 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   EXPECT_THROW(builder.build(), Error);
 }
 
+TEST(SceneBuilder, ArraysAreMapsOfEveryUse) {
+  SceneBuilder plain = sheetBuilder();
+  plain.addInstance("sheet", "red");
+  plain.set("/ambient", R"({"color": 0.3})")
+      .set("/textures/data", R"({"array": "dots", "as": "data"})")
+      .set("/materials/red/specular", "0.5")
+      .set("/materials/red/emission", "0.5");
+
+  for (const std::string map : {"roughnessMap", "occlusionMap", "emissionMap"}) {
+    SceneBuilder mapped = plain;
+    mapped.set("/materials/red/" + map, map == "emissionMap" ? R"("dots")" : R"("data")");
+    EXPECT_FALSE(samePictures(pictureBuiltBy(mapped), pictureBuiltBy(plain))) << map;
+  }
+}
+
 TEST(SceneBuilder, VerticesComeInThreesWithoutTriangles) {
   constexpr std::array<float, 18> kSoup{-1, 0, -1, 1,  0,    1, 1, 0, -1,
                                         -1, 0, -1, -1, 0.5f, 1, 1, 0, 1};

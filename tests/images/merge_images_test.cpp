@@ -41,12 +41,6 @@ TEST_F(MergeImages, PutsCropsInTheirPlaces) {
   EXPECT_TRUE(warnings_.entries().empty());
 }
 
-<<<<<<< HEAD
-=======
-TEST_F(MergeImages, OneWholePartIsItself) {
-  EXPECT_EQ(merge({part("a.exr", {0, 0, 8, 6}, 5)}).image.at(7, 5), Rgb(7, 5, 5));
-}
-
 // A file of codes has straight colors, and the merged EXR has premultiplied ones.
 TEST_F(MergeImages, AlphaOfCodesIsKept) {
   const std::string codes = save("a.png", png(1, 1, 8, 6, {0, 255, 0, 255, 51}));
@@ -57,7 +51,6 @@ TEST_F(MergeImages, AlphaOfCodesIsKept) {
   EXPECT_EQ(merged.layers[0].floats(), std::vector{0.2f});
 }
 
->>>>>>> alpha
 TEST_F(MergeImages, WhereOverlapsDifferTheLaterWinsAndIsCounted) {
   const Image image = merge({part("a.exr", {0, 0, 8, 4}, 1), part("b.exr", {0, 3, 8, 6}, 2)}).image;
   EXPECT_EQ(image.at(0, 2).z, 1);

@@ -45,6 +45,19 @@ void expectGrid(const SceneDescription& scene) {
   EXPECT_NEAR(area, 1, 8 * kPositionStep);
 }
 
+// The other tests skip by what this expects.
+TEST_F(GltfCompressed, ExtensionsAreReadWhereTheirLibrariesAre) {
+#ifdef WHIT_DRACO
+  EXPECT_TRUE(GltfDocument::reads("KHR_draco_mesh_compression"));
+#endif
+#ifdef WHIT_MESHOPT
+  EXPECT_TRUE(GltfDocument::reads("EXT_meshopt_compression"));
+#endif
+#ifdef WHIT_WEBP
+  EXPECT_TRUE(GltfDocument::reads("EXT_texture_webp"));
+#endif
+}
+
 TEST_F(GltfCompressed, DracoIsDecoded) {
   if (!GltfDocument::reads("KHR_draco_mesh_compression")) GTEST_SKIP() << "built without libdraco";
   const std::string whole = corpusFile("gltf/draco.glb");

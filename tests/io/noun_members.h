@@ -17,6 +17,8 @@ void expectMembers(const Noun& noun, const std::string& members, int roundings =
     const Json got = describe(noun.*member.field), right = wanted[member.name];
     if (right.is_array()) {
       EXPECT_EQ(got.size(), right.size()) << member.name;
+    } else {
+      EXPECT_GT(got.size(), 0u) << member.name;
     }
     for (std::size_t i = 0; i < got.size(); ++i) {
       const Json& a = got.is_array() ? got[i] : got;

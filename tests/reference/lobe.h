@@ -11,6 +11,7 @@
 #include "pi.h"
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "sampling/ggx_lobe.h"
+#include "textbook_fresnel.h"
 #include "verify/scene_builder.h"
 
 namespace whit::reference {
@@ -39,17 +40,6 @@ inline Vec3d bentNormal(verify::Numbers& numbers) {
 inline UnitPoint pointOf(verify::Numbers& numbers) {
   const auto u = static_cast<float>(numbers.in(0, 1)), v = static_cast<float>(numbers.in(0, 1));
   return {u, v};
-}
-
-// Fresnel's reflectance by Snell's law and the two amplitudes, as textbooks have them.
-template <typename Real>
-Real fresnelOf(Real n1, Real n2, Real c) {
-  const Real sine = n1 / n2 * std::sqrt(1 - c * c);
-  if (sine >= 1) return 1;
-  const Real behind = std::sqrt(1 - sine * sine);
-  const Real s = (n1 * c - n2 * behind) / (n1 * c + n2 * behind);
-  const Real p = (n1 * behind - n2 * c) / (n1 * behind + n2 * c);
-  return (s * s + p * p) / 2;
 }
 
 // The one of `cells` equal parts of [0, 1] that a number is in.

@@ -78,17 +78,5 @@ TEST(Triangle, ClosedMeshHasNoGaps) {
   }
 }
 
-TEST(BruteForce, FindsTheNearest) {
-  SceneBuilder builder;
-  for (const float y : {0.0f, 3.0f, 1.0f}) builder.add(floorAt(y, 1, 0));
-  const Scene scene = builder.build();
-  const BruteForce bruteForce(scene);
-
-  Candidate candidate;
-  ASSERT_TRUE(bruteForce.closest({{0.5, 9, 0.25}, {0, -1, 0}}, candidate));
-  EXPECT_EQ(scene.triangles[candidate.triangle].position[1], 3.0f);
-  EXPECT_FALSE(bruteForce.closest({{2, 9, 0}, {0, -1, 0}}, candidate));
-}
-
 }  // namespace
 }  // namespace whit::reference

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "textbook_fresnel.h"
 #include "verify/bodies.h"
 #include "verify/probe.h"
 #include "verify/scene_builder.h"
@@ -73,16 +74,6 @@ void errorsAt(Run& run, const std::vector<double>& cosines, const std::vector<Pa
   }
 }
 
-// Unpolarised reflectance in the textbook's form, in long double.
-Real fresnel(Real n1, Real n2, Real c) {
-  const Real s2 = (1 - c) * (1 + c) * n1 * n1 / (n2 * n2);
-  if (s2 >= 1) return 1;
-
-  const Real t = std::sqrt(1 - s2);
-  const Real rs = (n1 * c - n2 * t) / (n1 * c + n2 * t), rp = (n2 * c - n1 * t) / (n2 * c + n1 * t);
-  return (rs * rs + rp * rp) / 2;
-}
-
 // Cosines around the critical one, with a distance of one unit in the last place.
 std::vector<double> aroundCritical(double from, double to) {
   const double eta = to / from;
@@ -107,7 +98,7 @@ void criticalFlag(Run& run) {
 
 // The absolute error of F.
 double reflectanceError(const Interface& got, Real from, Real to) {
-  return std::fabs(got.reflected - double(fresnel(from, to, got.cosine)));
+  return std::fabs(got.reflected - double(test::fresnelOf<Real>(from, to, got.cosine)));
 }
 
 void criticalReflectance(Run& run) {
@@ -145,7 +136,7 @@ void equalIndices(Run& run) {
 // The relative error of F away from the critical angle.
 void relativeReflectanceError(Run& run, const std::vector<Pair>& pairs) {
   errorsAt(run, cosines(39, 4000, 1e-3), pairs, [](const Interface& got, Real from, Real to) {
-    const Real c = got.cosine, exact = fresnel(from, to, c), eta = to / from;
+    const Real c = got.cosine, exact = test::fresnelOf(from, to, c), eta = to / from;
     // Near the critical angle the error of the root dominates (H37a).
     const bool critical = eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L;
     if (critical || exact < 1e-30L) return -1.0;
