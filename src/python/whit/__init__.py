@@ -326,13 +326,19 @@ class Scene:
         set("/lights/0/intensity", 40). They equal those of a scene that was read with this value.
 
         pointer: a JSON pointer (RFC 6901) to the member; "-" stands for a new element of a list.
-        value: as in the description.
+        value: as in the description, but for meshes and images in arrays: these are given when the
+            scene is made, and update_mesh() replaces those of a mesh.
 
         Changes of lights, colors of the sky, ambient light, numbers of a scene file's or dict's own
         materials, and cameras where nothing is instanced, need no rebuild; for others the scene is
         read again. After an error the scene is unchanged.
         """
-        self._object.set_member(pointer, Description(self.name).text(value, pointer), progress)
+        description = Description(self.name)
+        text = description.text(value, pointer)
+        if description.meshes or description.images:
+            raise Error(f"{self.name}#{pointer}: meshes and images are given when the scene is made;"
+                        " update_mesh() replaces the arrays of a mesh", file=self.name, place=pointer)
+        self._object.set_member(pointer, text, progress)
 
     def update_mesh(self, name: str, positions: Any, *, normals: Optional[Any] = None,
                     progress: Optional[Progress] = None) -> None:
