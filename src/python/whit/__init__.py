@@ -394,6 +394,9 @@ class Scene:
                progress: Optional[Progress] = None, **options: Any) -> Picture:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         camera = options.get("camera")
+        for keyword, value in {"budget": budget, "target": target, "camera": camera}.items():
+            if path_time is not None and value:
+                raise Error(f"{keyword} cannot be used with path_time: leave one of them out", 2)
         if isinstance(camera, Mapping):
             raise TypeError("camera: expected a name or a whit.Camera(members, size), found a dict")
         if not isinstance(camera, Camera):
@@ -505,7 +508,8 @@ class Scene:
 Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
         camera: a name, or a whit.Camera, whose `size` is then the picture's where none is given.
-        path_time: time in seconds at which the camera path places the camera.
+        path_time: time in seconds at which the camera path places the camera; not with `camera`,
+            `budget` or `target`.
         budget: a time, as "50ms" or "10s": the options that are not given are chosen for the least
             visible error within it, and `receipt` tells which.
         target: an error, as "0.5codes" or "flip=0.01": they are chosen for the least time within it.
