@@ -507,6 +507,10 @@ class Scene:
 
 Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
+        The camera that a model gets fits the scene's `size`: for a `size` of another aspect ratio
+        state a camera here, or make the scene with its size, as
+        {{"view": "model", "size": [600, 800], "scene": [{{"model": "shoe.glb"}}]}}.
+
         camera: a name, or a whit.Camera, whose `size` is then the picture's where none is given.
         path_time: time in seconds at which the camera path places the camera; not with `camera`,
             `budget` or `target`.
