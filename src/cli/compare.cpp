@@ -334,7 +334,8 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
   const WriteScope scope;
   ImageMetadata metadata{{"a", job.subjects[0]}, {"b", job.subjects.back()}};
   if (job.subjects.size() == 1) metadata = {{"a", "packets"}, {"b", "reference"}};
-  writePng(job.heatmap, heatMap(compared.a, compared.b), metadata);
+  writePng(job.heatmap, heatMap(compared.a, compared.b, compared.exposure, compared.toneCurve),
+           metadata);
 }
 
 // Infinite and unknown numbers are null.
