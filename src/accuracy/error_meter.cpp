@@ -115,12 +115,16 @@ void ErrorMeter::measure(Point& point, FrameSource& frames) {
 
 void ErrorMeter::addPictures(Point& point, const Image& image) const {
   point.imagePng = pngOf(image);
-  point.totalMapPng = encodePng(heatMap(image, truth()));
-  if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_));
+  point.totalMapPng = mapPng(image, truth());
+  if (point.sameSamples) point.sameSamplesMapPng = mapPng(image, exact_);
 }
 
 std::string ErrorMeter::pngOf(const Image& image) const {
   return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
+}
+
+std::string ErrorMeter::mapPng(const Image& a, const Image& b) const {
+  return encodePng(heatMap(a, b, base_.exposure.ev, base_.toneCurve));
 }
 
 ImageDifference ErrorMeter::against(const Image& a, const Image& b) const {

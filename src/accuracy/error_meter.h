@@ -31,6 +31,8 @@ class ErrorMeter {
   std::string pngOf(const Image& image) const;
 
  private:
+  // Returns a PNG of the heat map.
+  std::string mapPng(const Image& a, const Image& b) const;
   ImageDifference against(const Image& a, const Image& b) const;
   const Image& withoutApproximations(const Point& point, const Image& own);
   const ReferencePaths& referencePaths(const Point& point, FrameSource& frames);

@@ -62,7 +62,8 @@ struct Compared {  // NOLINT(bugprone-exception-escape): moving Json does not th
   Image a, b;
   std::vector<ImageLayer> layersA, layersB;
   float exposure = 0;  // EV
-  Json about;          // the scene, or the files, and the options
+  ToneCurve toneCurve = ToneCurve::none;
+  Json about;  // the scene, or the files, and the options
 };
 
 OptionList listOptions(CompareJob& job) {
@@ -102,7 +103,8 @@ Compared compareFiles(const CompareJob& job) {
   }
 
   Compared result;
-  result.exposure = job.common.render.exposure.ev;
+  result.exposure = common.render.exposure.ev;
+  result.toneCurve = common.render.toneCurve;
   result.a = readImage(job.subjects[0], ImageLimits());
   result.b = readImage(job.subjects[1], ImageLimits());
   result.layersA = readLayers(job.subjects[0], ImageLimits());
@@ -130,6 +132,7 @@ Compared compareModes(const CompareJob& job) {
   Film reference = packets;
   Compared result;
   result.exposure = options.exposure.ev;
+  result.toneCurve = options.toneCurve;
   result.about = {{"scene", open->scene.name}, {"options", optionsJson(options)}};
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
   result.numbers.timeMsB = renderReference(renderer, camera, reference, progress.get()).frameMs;
@@ -331,7 +334,8 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
   const WriteScope scope;
   ImageMetadata metadata{{"a", job.subjects[0]}, {"b", job.subjects.back()}};
   if (job.subjects.size() == 1) metadata = {{"a", "packets"}, {"b", "reference"}};
-  writePng(job.heatmap, heatMap(compared.a, compared.b), metadata);
+  writePng(job.heatmap, heatMap(compared.a, compared.b, compared.exposure, compared.toneCurve),
+           metadata);
 }
 
 // Infinite and unknown numbers are null.
@@ -381,7 +385,7 @@ int compareCommand(const Words& words) {
 
   Compared compared = ofPictures ? compareFiles(job) : compareModes(job);
   compared.numbers.difference =
-      compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
+      compareImages(compared.a, compared.b, compared.exposure, compared.toneCurve);
   if (!job.colors) {
     std::vector<ChannelDifference>& rows = compared.numbers.channels;
     compareChannels(compared.layersA, compared.layersB, true, rows);

@@ -277,7 +277,7 @@ void printReports(const ImageWriter& writer, const RenderJob& job) {
   if (job.common.quiet) return;
   if (job.stats) std::fputs(stageTable(writer.run()).c_str(), stderr);
   if (writer.receipt()) {
-    std::fputs(receiptText(*writer.receipt(), job.command).c_str(), stderr);
+    std::fputs(receiptText(*writer.receipt(), job.words).c_str(), stderr);
   }
 }
 
@@ -308,18 +308,18 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
   writeJson(job.json, json);
 }
 
-// Returns the command without these options and their values.
-std::string commandWithout(const std::vector<std::string>& options, const Words& words) {
-  std::string command = "whit render";
+// Returns the words, each behind a blank, without these options and their values.
+std::string wordsWithout(const std::vector<std::string>& options, const Words& words) {
+  std::string kept;
   bool isValue = false;
   for (const std::string& word : words) {
     const bool isLeftOut = contains(options, word.substr(0, word.find('=')));
-    if (!isLeftOut && !isValue) command += " " + printable(quoted(word));
+    if (!isLeftOut && !isValue) kept += " " + printable(quoted(word));
 
     // The word behind an option without '=' is its value.
     isValue = isLeftOut && word.find('=') == std::string::npos;
   }
-  return command;
+  return kept;
 }
 
 int render(RenderJob& job) {
@@ -367,7 +367,7 @@ int render(RenderJob& job) {
 
 int renderCommand(const Words& words) {
   RenderJob job;
-  job.command = commandWithout({"--budget", "--target"}, words);
+  job.words = wordsWithout({"--budget", "--target"}, words);
   return parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) ? render(job) : 0;
 }
 

@@ -21,7 +21,7 @@ bool isFilm(const std::string& output);
 struct RenderJob {
   CommonOptions common;
   std::vector<std::string> scenes, outputs;
-  std::string frames, json, time, target, command;
+  std::string frames, json, time, target, words;
   Budget budget;
   double fps = 24;
   bool resume = false, stats = false;

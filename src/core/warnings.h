@@ -36,6 +36,11 @@ class Warnings {
     entry.count += count;
   }
 
+  void forget(const std::string& kind) {
+    const std::lock_guard lock(mutex_);
+    entries_.erase(kind);
+  }
+
   std::map<std::string, Entry> entries() const {
     const std::lock_guard lock(mutex_);
     return entries_;

@@ -126,7 +126,8 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
     return;
   }
 
-  // The scene's warnings are those of its present state, so each kind is noted once.
+  // Other kinds than this one stay until the scene is read again, and each is noted once.
+  if (touches(*touched, "materials")) opened_->warnings.forget(kSumWarning);
   const auto known = opened_->warnings.entries();
   for (const auto& [kind, entry] : warnings.entries()) {
     if (!known.contains(kind)) opened_->warnings.note(kind, entry.first, entry.count);

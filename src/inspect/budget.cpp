@@ -52,7 +52,7 @@ void Receipt::setError(double value) {
   high = value * (1 + kModelError);
 }
 
-std::string receiptText(const Receipt& r, const std::string& command) {
+std::string receiptText(const Receipt& r, const std::string& words) {
   const char* const unit = r.budget.inCodes ? "codes" : "FLIP";
   std::string text = "  chosen ";
   std::string options;
@@ -77,7 +77,8 @@ std::string receiptText(const Receipt& r, const std::string& command) {
 
   text += "\n";
   if (!r.note.empty()) text += "  note: " + r.note + "\n";
-  if (!command.empty()) text += "  the same picture: " + command + options + "\n";
+  // The options come first, because the user's words may end options by "--".
+  if (!words.empty()) text += "  the same picture: whit render" + options + words + "\n";
   return text;
 }
 

@@ -64,7 +64,8 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
 // be brighter. Leaves the channels that were asked for.
 void assess(Receipt& receipt, Renderer& renderer, const Camera& camera, double ms, Film& film);
 
-// Lines for people; the last is the command without the budget, if `command` begins it.
-std::string receiptText(const Receipt& receipt, const std::string& command);
+// Lines for people. The last is the command of the same picture, which ends with the words, unless
+// they are empty.
+std::string receiptText(const Receipt& receipt, const std::string& words);
 
 }  // namespace whit

@@ -171,11 +171,11 @@ std::array<std::uint8_t, 3> heatOfCodes(int codes) {
   return heatColor(std::log2(1.0 + std::min(codes, kHeatCodes)) / std::log2(1.0 + kHeatCodes));
 }
 
-DisplayImage heatMap(const Image& a, const Image& b) {
+DisplayImage heatMap(const Image& a, const Image& b, float exposure, ToneCurve curve) {
   checkComparable(a, b);
 
-  DisplayImage map = toDisplay(a, 0, ToneCurve::none);
-  const std::vector<std::uint8_t> codes = codeDifferences(map, toDisplay(b, 0, ToneCurve::none));
+  DisplayImage map = toDisplay(a, exposure, curve);
+  const std::vector<std::uint8_t> codes = codeDifferences(map, toDisplay(b, exposure, curve));
 
   for (const auto i : indices(codes)) {
     std::ranges::copy(heatOfCodes(codes[i]), &map.rgba[4 * i]);

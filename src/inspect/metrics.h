@@ -31,8 +31,9 @@ ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0
 
 // Returns the largest difference of a channel for each pixel, in codes.
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b);
-// Paints the difference of each pixel with heatOfCodes().
-DisplayImage heatMap(const Image& a, const Image& b);
+// Paints the difference of each pixel, in the codes that compareImages() counts, with
+// heatOfCodes().
+DisplayImage heatMap(const Image& a, const Image& b, float exposure, ToneCurve curve);
 // Returns the color of a difference in codes, on a logarithmic scale from 0 to kHeatCodes; larger
 // differences have the last color.
 std::array<std::uint8_t, 3> heatOfCodes(int codes);

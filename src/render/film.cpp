@@ -43,6 +43,7 @@ void sizeDisplay(Film& film) {
   film.display.width = film.image.windowWidth();
   film.display.height = film.image.windowHeight();
   film.display.rgba.resize(film.image.pixels.size() * 4);
+  film.display.hasAlpha = false;  // an earlier frame may have had a transparent background
 }
 
 void poolErrors(Film& film) {

@@ -322,13 +322,13 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
   receipt.high = 0.025;
   receipt.ended = 0.001;
 
-  EXPECT_EQ(receiptText(receipt, "whit render atrium"),
+  EXPECT_EQ(receiptText(receipt, " atrium"),
             "  chosen --spp 4 --depth 8\n"
             "  left out depth 64 (FLIP 0.0020)\n"
             "  time 95 ms: 10 to choose, 85 for the picture (expected 80), 95 % of the budget\n"
             "  error 0.0200 FLIP, between 0.0150 and 0.0250; --depth and --cutoff left out at most "
             "0.0010\n"
-            "  the same picture: whit render atrium --spp 4 --depth 8\n");
+            "  the same picture: whit render --spp 4 --depth 8 atrium\n");
 
   receipt.high = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(

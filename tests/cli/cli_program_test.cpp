@@ -314,6 +314,22 @@ TEST_F(Program, CompareFailsAboveTheTolerance) {
   EXPECT_GT(bytesOf("heat.png").size(), 100u);
 }
 
+// Radiances of 2 and 3 are both white, and with 2 EV less they are 0.5 and 0.75; tone curves tell
+// them apart as well.
+TEST_F(Program, CompareMapsTheCodesThatItCounts) {
+  for (const float radiance : {2.0f, 3.0f}) {
+    Image image(1, 1);
+    image.at(0, 0) = Rgb(radiance);
+    writeExr(folder_ / (radiance == 2 ? "a.exr" : "b.exr"), image, {});
+  }
+
+  for (const std::string options : {"", "--exposure -2", "--tonemap reinhard"}) {
+    const Json json = jsonOf("compare a.exr b.exr --heatmap heat.png " + options);
+    EXPECT_EQ(json["max_code"] == 0, options.empty());
+    EXPECT_EQ(imageIn("heat.png").at(0, 0) == Rgb(), options.empty()) << options;
+  }
+}
+
 // Means leave such pixels out.
 TEST_F(Program, CompareFailsByPixelsThatAreNotFinite) {
   Image image(2, 2);

@@ -195,6 +195,20 @@ TEST(Library, ImagesAreValues) {
   EXPECT_EQ(second.width(), 40);
 }
 
+TEST(Library, ImagesForgetTheAlphaOfAnEarlierPicture) {
+  const TemporaryFolder folder;
+  Renderer renderer = whittedRenderer();
+  Image image;
+  renderer.set("background", "transparent").render(image);
+  EXPECT_EQ(statusOf([&] { image.write(folder / "a.jpg"); }), 2);
+
+  for (const char* mode : {"packets", "reference"}) {
+    renderer.set("background", "sky").set("mode", mode).render(image);
+    image.write(folder / "a.jpg");
+    EXPECT_EQ(image.png(), renderer.render().png());
+  }
+}
+
 TEST(Library, BytesOfAnImageHoldAllOfIt) {
   const Image image = whittedRenderer()
                           .set("background", "transparent")

@@ -1,5 +1,6 @@
 // Members of a scene that are set between frames give the picture of a scene that was read with
 // them.
+#include "has_text.h"
 #include "io/scene/scene_settings.h"
 #include "library_scenes.h"
 
@@ -201,6 +202,24 @@ TEST(SetMember, ScenesThatMoveKeepTheirTime) {
     options.settings.push_back(settingOf(member));
     EXPECT_TRUE(samePictures(renderer, smallRenderer("orrery", options).setTime(3.5)))
         << member.pointer;
+  }
+}
+
+TEST(SetMember, WarningsComeAndGoWithWhatTheyTell) {
+  constexpr std::array<const char*, 3> kSums[] = {{"/materials/glass/mirror", "0.9", "1 time,"},
+                                                  {"/materials/mirror/diffuse", "0.9", "2 times,"},
+                                                  {"/materials/glass/mirror", "0", "1 time,"},
+                                                  {"/materials/mirror/diffuse", "0", ""}};
+  LoadOptions options;
+  Renderer renderer = smallRenderer("whitted");
+  for (const auto& [pointer, value, times] : kSums) {
+    renderer.setMember(pointer, value);
+    options.settings.push_back(std::string(pointer) + "=" + value);
+
+    const std::vector<std::string> warnings = renderer.scene().warnings();
+    EXPECT_EQ(warnings, loadScene("whitted", options).warnings()) << pointer;
+    EXPECT_EQ(warnings.empty(), *times == 0) << pointer;
+    for (const std::string& warning : warnings) EXPECT_TRUE(hasText(warning, times)) << warning;
   }
 }
 

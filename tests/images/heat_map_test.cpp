@@ -27,7 +27,7 @@ std::array<Image, 2> ramp(int width) {
 
 TEST(HeatMap, GrowsLighterUpToSixteenCodes) {
   const auto [a, b] = ramp(100);
-  const DisplayImage map = heatMap(a, b);
+  const DisplayImage map = heatMap(a, b, 0, ToneCurve::none);
   EXPECT_EQ(map.width, 100);
   EXPECT_EQ(at(map, 0, 0), Rgb());
   for (int codes = 1; codes <= 16; ++codes)
@@ -38,7 +38,7 @@ TEST(HeatMap, GrowsLighterUpToSixteenCodes) {
 
 TEST(HeatMap, TakesTheWindowOnly) {
   const Image window(500, 500, {10, 10, 90, 13});
-  const DisplayImage map = heatMap(window, window);
+  const DisplayImage map = heatMap(window, window, 0, ToneCurve::none);
   EXPECT_EQ(map.width, 80);
   EXPECT_EQ(map.height, 3);
 }

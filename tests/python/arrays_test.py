@@ -151,6 +151,23 @@ class Arrays(unittest.TestCase):
         self.assertEqual((error.exit_status, error.place), (status, place), str(error))
         self.assertIn(expected, error.expected or "", str(error))
 
+    def test_arrays_are_given_when_the_scene_is_made(self):
+        dots = np.full((2, 2, 3), 200, np.uint8)
+        scene = scene_of(textures={"dots": dots}, materials={"red": {"diffuseMap": "dots"}})
+        rest = pixels(scene)
+        for pointer, value in (("/scene/0/mesh", square(positions=square().positions / 2)),
+                               ("/scene/-", {"mesh": square()}), ("/textures/dots", dots // 2),
+                               ("/textures/dots/array", dots // 2)):
+            with self.subTest(pointer=pointer):
+                error = error_of(scene.set, pointer, value)
+                self.assertEqual((error.exit_status, error.place), (3, pointer))
+                self.assertRegex(str(error), r"given when the scene is made.* update_mesh\(\)")
+        assert_same(scene, rest)
+
+        # Lists of numbers may be arrays.
+        scene.set("/cameras/above/eye", np.array([0, 4, 2]))
+        assert_other(scene, rest)
+
     def test_arrays_that_are_no_mesh(self):
         for positions in (None, np.zeros((4, 2), np.float32), np.zeros(12, np.float32),
                           np.zeros((4, 3), complex), np.zeros((4, 3), bool), "many",

@@ -2,6 +2,7 @@
 
 import gc
 import unittest
+from pathlib import Path
 
 import numpy as np
 from numpy.testing import assert_array_equal
@@ -37,6 +38,16 @@ class Bits(unittest.TestCase):
                 with self.subTest(name=name, **options):
                     picture = whit.Scene(name, settings=settings).render(size=SIZE, **options)
                     expect_picture(picture, name, *words_of(settings, options))
+
+    def test_the_camera_of_a_model_fits_the_size_of_its_scene(self):
+        size = ("--size", "30x48")
+        with temporary_folder():
+            Path("wide.obj").write_text("v -2 0 0\nv 2 0 0\nv 2 1 0\nf 1 2 3\n")
+            scene = whit.Scene({"view": "model", "size": [30, 48], "scene": [{"model": "wide.obj"}]})
+            expect_picture(scene.render(), "wide.obj", *size)
+            camera = {"eye": (1, 2, 5), "at": (0, 0, 0)}
+            picture = whit.Scene("wide.obj").render(size=(30, 48), **camera)
+            expect_picture(picture, "wide.obj", *size, *words_of({}, camera))
 
     def test_they_are_told_from_others(self):
         with temporary_folder(), self.assertRaisesRegex(AssertionError, "^whit compare"):

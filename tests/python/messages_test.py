@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import whit
-from samples import SIZE, assert_same, error_of, scene_of, square_scene, temporary_folder
+from samples import SIZE, assert_other, assert_same, error_of, scene_of, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
@@ -129,6 +129,17 @@ class Messages(unittest.TestCase):
                                ({"sky": "none"}, r"use an argument of whit\.Scene\(\)")):
             with self.subTest(**options), self.assertRaisesRegex(TypeError, words):
                 scene.render(**options)
+
+    def test_a_path_places_the_camera_alone(self):
+        scene = whit.Scene("whitted")
+        camera = scene.camera()
+        for keyword, value in (("budget", "1s"), ("target", "flip=0.1"), ("camera", "above"),
+                               ("camera", camera)):
+            with self.subTest(**{keyword: value}):
+                error = error_of(scene.render, size=SIZE, path_time=0.5, **{keyword: value})
+                self.assertEqual(error.exit_status, 2)
+                self.assertIn(f"{keyword} cannot be used with path_time", str(error))
+        assert_other(scene.render(size=SIZE, path_time=0.5).rgb, scene)
 
     def test_what_is_told_of_scenes(self):
         dark = {"lights": []}

@@ -5,6 +5,7 @@
 #include "core/index.h"
 #include "core/text.h"
 #include "io/scene/scene_sections.h"
+#include "io/scene/scene_settings.h"
 #include "scene/generation_limit.h"
 
 namespace whit {
@@ -93,10 +94,8 @@ void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) 
     if (part[largest] == 0) continue;
     text += formatted("%s%s %.4g", text.empty() ? "" : " + ", name, double{part[largest]});
   }
-  warnings.add(
-      "material whose parts exceed 1 in sum: what the mirror, then the glossy lobe and then the "
-      "transmission leave is all that its diffuse color gets",
-      formatted("%s: %s = %.4g", where.c_str(), text.c_str(), double{sum[largest]}));
+  warnings.add(kSumWarning,
+               formatted("%s: %s = %.4g", where.c_str(), text.c_str(), double{sum[largest]}));
 }
 
 MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {

@@ -55,6 +55,11 @@ bool areRelated(const std::vector<std::string>& a, const std::vector<std::string
 // Returns whether the document is that of a model by itself, see describeModel().
 bool isModelAlone(const JsonDocument& document) { return !document.root.contains("whit"); }
 
+// Returns whether the section "materials" of a scene file has the material.
+bool isOfFile(const Material& material, const JsonDocument& document) {
+  return !isModelAlone(document) && material.pointer.starts_with("/materials/");
+}
+
 // Returns whether "view" supplies the sky, which is as bright as it suits the lights.
 bool hasSuppliedSky(const JsonDocument& document) {
   return document.root.contains("view") && !document.root.contains("sky");
@@ -112,7 +117,7 @@ bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, Sc
 // Changes the material that the setting is about, as its reader would have. Returns false for other
 // settings, and for members that triangles or textures depend on.
 bool editMaterial(const SceneSetting& setting, const JsonDocument& document, const Scene& scene,
-                  Warnings& warnings, std::vector<Material>& materials) {
+                  std::vector<Material>& materials) {
   // The pointer to the material comes before the name of the member.
   std::string pointer;
   auto before = scene.materials.end();
@@ -140,10 +145,7 @@ bool editMaterial(const SceneSetting& setting, const JsonDocument& document, con
   if (isBaked) return false;
 
   // Only the readers of models leave maps out.
-  if (!isModelAlone(document) && pointer.starts_with("/materials/")) {
-    warnOfSum(material, object.value().where(), warnings);
-    return true;
-  }
+  if (isOfFile(material, document)) return true;
   for (const auto& [name, map] : kReplacedMaps) {
     const bool isGiven = object.has(std::string(name) + "Map");
     if (object.has(name) && !isGiven) material.*map = kNoTexture;
@@ -235,11 +237,16 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
       surroundings = true;
     } else if ((section == "cameras" || section == "size") && !scene.isModel) {
       view = true;
-    } else if (editMaterial({tokens, value}, document, scene, warnings, materials)) {
+    } else if (editMaterial({tokens, value}, document, scene, materials)) {
       shading = true;
     } else {
       return false;
     }
+  }
+
+  for (const Material& material : materials) {
+    if (!shading || !isOfFile(material, document)) continue;
+    warnOfSum(material, concat(document.file, "#", material.pointer), warnings);
   }
 
   // All that may fail comes before the first change.

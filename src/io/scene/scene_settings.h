@@ -35,6 +35,11 @@ void applySceneSetting(const SceneSetting& setting, JsonDocument& document);
 // `options`, with which it was read.
 JsonDocument describeModel(const std::string& file, const Scene& scene, const LoadOptions& options);
 
+// Kind of the warnings of warnOfSum().
+inline constexpr const char* kSumWarning =
+    "material whose parts exceed 1 in sum: what the mirror, then the glossy lobe and then the "
+    "transmission leave is all that its diffuse color gets";
+
 // Changes `scene` into the one that a reader makes of `document` and `options`, bit for bit, if the
 // settings that were applied to the document since then are about lights, materials, sky or ambient
 // light, or in scenes without instances about cameras or the image size; not about textures, and
@@ -42,6 +47,8 @@ JsonDocument describeModel(const std::string& file, const Scene& scene, const Lo
 // nothing done, where the scene has to be read again. Throws as the reader does, with nothing done.
 // Renderers of the scene have to be told (Renderer::shadingChanged, camerasChanged) before their
 // next frame.
+//
+// Where materials are edited, `warnings` gets the sums of all of them (kSumWarning).
 bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& options,
                const JsonDocument& document, Warnings& warnings, Scene& scene);
 

@@ -326,13 +326,19 @@ class Scene:
         set("/lights/0/intensity", 40). They equal those of a scene that was read with this value.
 
         pointer: a JSON pointer (RFC 6901) to the member; "-" stands for a new element of a list.
-        value: as in the description.
+        value: as in the description, but for meshes and images in arrays: these are given when the
+            scene is made, and update_mesh() replaces those of a mesh.
 
         Changes of lights, colors of the sky, ambient light, numbers of a scene file's or dict's own
         materials, and cameras where nothing is instanced, need no rebuild; for others the scene is
         read again. After an error the scene is unchanged.
         """
-        self._object.set_member(pointer, Description(self.name).text(value, pointer), progress)
+        description = Description(self.name)
+        text = description.text(value, pointer)
+        if description.meshes or description.images:
+            raise Error(f"{self.name}#{pointer}: meshes and images are given when the scene is made;"
+                        " update_mesh() replaces the arrays of a mesh", file=self.name, place=pointer)
+        self._object.set_member(pointer, text, progress)
 
     def update_mesh(self, name: str, positions: Any, *, normals: Optional[Any] = None,
                     progress: Optional[Progress] = None) -> None:
@@ -388,6 +394,9 @@ class Scene:
                progress: Optional[Progress] = None, **options: Any) -> Picture:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         camera = options.get("camera")
+        for keyword, value in {"budget": budget, "target": target, "camera": camera}.items():
+            if path_time is not None and value:
+                raise Error(f"{keyword} cannot be used with path_time: leave one of them out", 2)
         if isinstance(camera, Mapping):
             raise TypeError("camera: expected a name or a whit.Camera(members, size), found a dict")
         if not isinstance(camera, Camera):
@@ -498,8 +507,13 @@ class Scene:
 
 Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
+        The camera that a model gets fits the scene's `size`: for a `size` of another aspect ratio
+        state a camera here, or make the scene with its size, as
+        {{"view": "model", "size": [600, 800], "scene": [{{"model": "shoe.glb"}}]}}.
+
         camera: a name, or a whit.Camera, whose `size` is then the picture's where none is given.
-        path_time: time in seconds at which the camera path places the camera.
+        path_time: time in seconds at which the camera path places the camera; not with `camera`,
+            `budget` or `target`.
         budget: a time, as "50ms" or "10s": the options that are not given are chosen for the least
             visible error within it, and `receipt` tells which.
         target: an error, as "0.5codes" or "flip=0.01": they are chosen for the least time within it.
