@@ -146,14 +146,5 @@ TEST(Render, EffectsOfTheSceneAreEnough) {
   EXPECT_EQ(few.pixels, all.pixels);
 }
 
-TEST(Render, EmptySceneIsSky) {
-  SceneBuilder builder;
-  builder.sky(0.5f);
-  const Scene scene = builder.build();
-  Image image(3, 2);
-  render(scene, BruteForce(scene), Camera{}, Settings{}, image);
-  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(0.5f));
-}
-
 }  // namespace
 }  // namespace whit::reference

@@ -207,24 +207,32 @@ void slabShift(Run& run) {
   }
 }
 
-// In a white room only the light that is still inside after d internal reflections is missing,
-// which is R^d (1 - R).
+// The faces of a slab with a coat reflect R = m + (1 - m) F. In a white room only the light that is
+// still inside after d internal reflections is missing, which is R^d (1 - R) along the normal.
 void furnace(Run& run) {
   run.boundBy(1e-6);
-  SceneBuilder builder;
-  addSlab(builder, 0, -1, glassMaterial(1.5f), 50);
-  builder.sky(1);
-  const Scene scene = builder.build();
   const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
 
-  for (const int inside : {1, 2, 3, 4, 12}) {
-    RenderOptions options = optionsOf(run, inside < 12 ? ImageSize{1, 1} : ImageSize{33, 21});
-    options.depth = inside + 1;
-    options.cutoff = 0;
+  for (const float mirror : {0.0f, 0.05f, 0.2f, 0.5f, 1.0f}) {
+    SceneBuilder builder;
+    Material coated = glassMaterial(1.5f);
+    coated.mirror = coated.mirrorGrazing = Rgb(mirror);
+    addSlab(builder, 0, -1, coated, 50);
+    builder.sky(1);
+    const Scene scene = builder.build();
+    const double reflected = double{mirror} * 0.96 + 0.04;
 
-    const double lost = inside < 12 ? std::pow(0.04, inside) * 0.96 : 0;
-    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
-      run.note(std::fabs(pixel.x - (1 - lost)), "depth ", inside + 1);
+    // So deep, the loss is none at any angle.
+    constexpr int kDeep = 31;
+    for (const int inside : {1, 2, 3, 4, kDeep}) {
+      RenderOptions options = optionsOf(run, inside < kDeep ? ImageSize{1, 1} : ImageSize{33, 21});
+      options.depth = inside + 1;
+      options.cutoff = 0;
+
+      const double lost = std::pow(reflected, inside) * (1 - reflected);
+      for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+        run.note(std::fabs(pixel.x - (1 - lost)), "mirror ", mirror, ", depth ", inside + 1);
+      }
     }
   }
 }
@@ -261,7 +269,7 @@ const Family kRefractionCases{
       Runs::targets},
      {"H42a", "a slab moves a ray sideways and does not turn it",
       "thickness 1, 60 degrees, index 1.5; relative error of the shift", slabShift},
-     {"H43", "white furnace through a slab", "closed form for every depth", furnace},
+     {"H43", "white furnace through a slab", "closed form for every coat and depth", furnace},
      {"H44", "reflected and refracted weights add up to 1", "sums of the kernels' weights less 1",
       energyOfOneEvent, Runs::targets}}};
 
