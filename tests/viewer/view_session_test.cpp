@@ -83,6 +83,21 @@ TEST_F(Sessions, OptionsAndEditsAreUndone) {
   expectNothingToUndo();
 }
 
+// Exact spheres are part of the acceleration structure, which the next picture builds anew. The
+// rays of the pixel are asked for again before and after that.
+TEST_F(Sessions, BuiltInEffectsAreChosenWithAPixelPicked) {
+  session_->open("glass");
+  settle();
+  act("click 24 16");
+  for (const bool on : {false, true}) {
+    act(on ? "effect spheres 1" : "effect spheres 0");
+    EXPECT_EQ(state().error, "");
+    EXPECT_EQ(state().options.disable.has(Effect::spheres), !on);
+    EXPECT_EQ(state().shown.effects.has(Effect::spheres), on);
+    EXPECT_TRUE(state().rays.query.picture.options == state().shown.request.options);
+  }
+}
+
 TEST_F(Sessions, AnEditThatFailsIsNoStateToReturnTo) {
   edit("/sky={\"image\": \"missing.exr\"}");
   EXPECT_EQ(state().errors, 1);

@@ -420,7 +420,7 @@ void Session::followRays() {
 
   // The query keeps the camera and the size of the pick; everything else follows the picture.
   RayQuery query = *picked_;
-  query.picture.options = state_.options;
+  query.picture.options = state_.shown.request.options;
   query.picture.options.size = picked_->picture.options.size;
   query.picture.reloads = reloads_;
   query.picture.edits = edits_;
