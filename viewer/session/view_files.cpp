@@ -128,11 +128,17 @@ Json sceneOfModel(const fs::path &path, const Scene &scene, const EditedScene &e
     if (section == "materials" || section == "variant") applySceneSetting(setting, item);
   }
 
-  // A model alone is moved to the origin when it is read, but one in a scene
-  // file is not.
-  if (const Vec3d origin = scene.origin; origin != Vec3d()) {
-    item.root["transform"] = {{"translate", {-origin.x, -origin.y, -origin.z}}};
+  // A model alone is turned upright and moved to the origin when it is read,
+  // but one in a scene file is not.
+  Json transform = Json::array();
+  if (const Affine &turn = scene.upright; turn != Affine()) {
+    const auto &[x, y, z, p] = turn;
+    transform.push_back({{"matrix", {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0}}});
   }
+  if (const Vec3d origin = scene.origin; origin != Vec3d()) {
+    transform.push_back({{"translate", {-origin.x, -origin.y, -origin.z}}});
+  }
+  if (!transform.empty()) item.root["transform"] = std::move(transform);
 
   root["scene"] = Json::array({std::move(item.root)});
   return root;
@@ -250,8 +256,12 @@ SavedScene saveScene(const LoadOptions &load, const std::string &name, const Tra
   writeTextFile(file, root.dump(2) + "\n");
 
   resetOwnSize(load, scene, options);
-  return {file, commandWith(renderOf(file, saved), options, stated) +
-                    (leavesFolder ? " --allow-outside" : "")};
+  const std::vector<std::string> materials = namesIn(scene.materials);
+  const bool hasGround = std::ranges::find(materials, kGroundShadowName) != materials.end();
+  return {file,
+          commandWith(renderOf(file, saved), options, stated) +
+              (leavesFolder ? " --allow-outside" : ""),
+          !document && hasGround};
 }
 
 ImageMetadata pngMetadata(const TracedFrame &frame) {
