@@ -3,6 +3,7 @@
 
 #include "has_text.h"
 #include "io/load_scene.h"
+#include "io/scene_files.h"
 #include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
 
@@ -216,6 +217,21 @@ TEST_F(SavedScenes, OfATurnedModelHoldItUpright) {
                                    "120x75", options);
     expectThatItShows("shown.png", lines);
   }
+}
+
+// The reader puts the camera that such a scene asks for before the others.
+TEST_F(SavedScenes, WithASuppliedViewNameTheirCamera) {
+  save("view.json", asJson("{'whit': 1, 'view': 'model', 'azimuth': 30, 'scene': [{'shape': 'box', "
+                           "'size': [3, 1, 1]}]}"));
+  scene_ = {"view.json"};
+  const Words lines = commandsOf(
+      2,
+      "bare\nasked\nresize 90 150\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey Ctrl+S\n"
+      "key D 0.2\nwait 20 frames\nwait sharp\nscreenshot moved.png\n"
+      "key Ctrl+S\n",
+      "");
+  expectThatItShows("shown.png", {lines[0]});
+  expectThatItShows("moved.png", {lines[1]});
 }
 
 TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {

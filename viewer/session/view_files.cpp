@@ -23,10 +23,17 @@ namespace {
 
 constexpr std::uint64_t kSettingsBytesLimit = 1 << 16;
 
-// Sets the options to the scene's camera that equals this one, or to the first
-// that the options can turn into it, and to the members that differ.
-void setCamera(const Scene &scene, const Camera &camera, RenderOptions &options) {
-  const auto isSame = [&](const Camera &known) { return sameView(known, camera); };
+// A command with a time begins with the camera that flies the path, if no other is named.
+bool fliesPath(const TracedFrame& frame) {
+  return frame.request.seconds && !frame.scene->scene.cameraPath.empty();
+}
+
+// Sets the options to the scene's camera that equals this one, or to the first that the options can
+// turn into it, and to the members that differ.
+void setCamera(const TracedFrame& frame, RenderOptions& options) {
+  const Scene& scene = frame.scene->scene;
+  const Camera& camera = frame.request.camera;
+  const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
   const auto canBecome = [&](Camera known) {
     forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
     return isSame(known);
@@ -36,18 +43,16 @@ void setCamera(const Scene &scene, const Camera &camera, RenderOptions &options)
   auto named = std::find_if(first, end, isSame);
   if (named == end) named = std::find_if(first, end, canBecome);
   if (named == end) named = first;
-  if (named != first) options.camera = named->name;
+  if (named != first || fliesPath(frame)) options.camera = named->name;
 
-  // Members that differ from those of the named camera become options of their
-  // own.
+  // Members that differ from those of the named camera become options of their own.
   forEachCameraOption([&](auto option, auto member) {
     using Option = typename std::remove_cvref_t<decltype(options.*option)>::value_type;
     if (camera.*member == (*named).*member) return;
     options.*option = optionOf<Option>(camera.*member, scene.origin);
   });
 
-  // The reader fits the supplied camera of a model anew to a picture of another
-  // shape.
+  // The reader fits the supplied camera of a model anew to a picture of another shape.
   const ImageSize size = options.size.value();
   if (!scene.isModel || named != first) return;
   if (1.0 * size.width * scene.height == 1.0 * size.height * scene.width) return;
@@ -57,24 +62,24 @@ void setCamera(const Scene &scene, const Camera &camera, RenderOptions &options)
 
 // Returns the first name that is free, of name(1), name(2) and so on.
 template <typename Name>
-std::string freeName(const Name &name, const std::vector<const char *> &extensions) {
+std::string freeName(const Name& name, const std::vector<const char*>& extensions) {
   constexpr int kLimit = 9999;
   for (int i = 1; i <= kLimit; ++i) {
-    const auto taken = [&](const char *extension) { return fs::exists(name(i) + extension); };
+    const auto taken = [&](const char* extension) { return fs::exists(name(i) + extension); };
     if (std::ranges::none_of(extensions, taken)) return name(i);
   }
   throwIo("'" + name(kLimit) + "' is taken: there are too many saved files in this folder");
 }
 
-std::string renderOf(const std::string &scene, const std::string &picture) {
+std::string renderOf(const std::string& scene, const std::string& picture) {
   return "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
 }
 
 // `text` is the command without options.
-std::string commandWith(std::string text, RenderOptions options, const RenderOptions &usual) {
+std::string commandWith(std::string text, RenderOptions options, const RenderOptions& usual) {
   // The options that a preset sets are stated one by one.
   options.quality = usual.quality;
-  forEachOption(options, [&](const OptionSpec &spec, const auto &field) {
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
     const std::string name(spec.name), value = formatValue(spec, field);
     if (!spec.changesPicture || value == optionText(usual, name)) return;
     text += " " + (name == "strict" ? "--strict" : quoted("--" + name + "=" + value));
@@ -83,10 +88,10 @@ std::string commandWith(std::string text, RenderOptions options, const RenderOpt
 }
 
 // Returns true if these settings name a sky outside the scene's folder.
-bool skyLeavesFolder(const std::string &scene, const std::string &shippedScenes,
-                     const std::vector<std::string> &settings) {
+bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
+                     const std::vector<std::string>& settings) {
   Json root = Json::object();
-  for (const std::string &setting : settings) {
+  for (const std::string& setting : settings) {
     const SceneSetting parsed = parseSceneSetting(setting);
     if (parsed.tokens == std::vector<std::string>{"sky"}) root["sky"] = parsed.value;
   }
@@ -95,21 +100,21 @@ bool skyLeavesFolder(const std::string &scene, const std::string &shippedScenes,
 }
 
 // `document` is the scene's file with all settings.
-Json editedFile(JsonDocument document, const SceneName &name, const EditedScene &edited) {
-  for (const auto &[parameter, value] : name.parameters) {
+Json editedFile(JsonDocument document, const SceneName& name, const EditedScene& edited) {
+  for (const auto& [parameter, value] : name.parameters) {
     document.root["parameters"][parameter] = value;
   }
   if (!edited.givenSky.empty()) document.root["sky"] = describe(edited.sky);
   return std::move(document.root);
 }
 
-// Makes a scene that holds the model. Its cameras, lights and sky were supplied
-// or come from the model's own file, so the scene has to state them.
-Json sceneOfModel(const fs::path &path, const Scene &scene, const EditedScene &edited) {
+// Makes a scene that holds the model. Its cameras, lights and sky were supplied or come from the
+// model's own file, so the scene has to state them.
+Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& edited) {
   Json root{{"whit", 1}, {"size", {scene.width, scene.height}}};
 
   std::vector<std::string> names;
-  for (const Camera &camera : scene.cameras) names.push_back(camera.name);
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
   names = distinctNames(names);
   root["cameras"] = Json::object();
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -122,17 +127,17 @@ Json sceneOfModel(const fs::path &path, const Scene &scene, const EditedScene &e
 
   // The item has the materials of the model, and what chooses among them.
   JsonDocument item{path.string(), {{"model", path.filename().string()}}, {}};
-  for (const std::string &text : edited.settings) {
+  for (const std::string& text : edited.settings) {
     const SceneSetting setting = parseSceneSetting(text);
-    const std::string &section = setting.tokens.front();
+    const std::string& section = setting.tokens.front();
     if (section == "materials" || section == "variant") applySceneSetting(setting, item);
   }
 
-  // A model alone is turned upright and moved to the origin when it is read,
-  // but one in a scene file is not.
+  // A model alone is turned upright and moved to the origin when it is read, but one in a scene
+  // file is not.
   Json transform = Json::array();
-  if (const Affine &turn = scene.upright; turn != Affine()) {
-    const auto &[x, y, z, p] = turn;
+  if (const Affine& turn = scene.upright; turn != Affine()) {
+    const auto& [x, y, z, p] = turn;
     transform.push_back({{"matrix", {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0}}});
   }
   if (const Vec3d origin = scene.origin; origin != Vec3d()) {
@@ -144,31 +149,29 @@ Json sceneOfModel(const fs::path &path, const Scene &scene, const EditedScene &e
   return root;
 }
 
-// Makes `camera` the first one, under a name of its own. The path's first
+// Makes `camera` the first one, under a name of its own, which is returned. The path's first
 // keyframe states what it took from the old first camera.
-void lookThrough(const Camera &camera, const Scene &scene, Json &root) {
-  if (sameView(camera, scene.cameras.front())) return;
-
+std::string lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   const Json others = root.contains("cameras") ? root["cameras"] : Json::object();
   std::string name = "saved";
   for (int i = 2; others.contains(name); ++i) name = "saved " + std::to_string(i);
 
   Json cameras{{name, describe(camera)}};
-  for (const auto &[known, value] : others.items()) cameras[known] = value;
+  for (const auto& [known, value] : others.items()) cameras[known] = value;
   root["cameras"] = std::move(cameras);
 
-  if (scene.cameraPath.empty()) return;
-  Json &first = root["path"][0];
+  if (scene.cameraPath.empty()) return name;
+  Json& first = root["path"][0];
   const Json begin = describe(scene.cameraPath.front().camera);
-  for (const auto &[key, value] : begin.items()) {
+  for (const auto& [key, value] : begin.items()) {
     if (!first.contains(key)) first[key] = value;
   }
+  return name;
 }
 
-// Writes the options that differ from those that the scene states so far, which
-// are in `stated`.
-void stateOptions(const RenderOptions &chosen, RenderOptions &stated, Json &root) {
-  for (const std::string &name : sceneOptionNames()) {
+// Writes the options that differ from those that the scene states so far, which are in `stated`.
+void stateOptions(const RenderOptions& chosen, RenderOptions& stated, Json& root) {
+  for (const std::string& name : sceneOptionNames()) {
     const std::string value = optionText(chosen, name);
     if (name == "quality" || value == optionText(stated, name)) continue;
 
@@ -179,14 +182,20 @@ void stateOptions(const RenderOptions &chosen, RenderOptions &stated, Json &root
 }
 
 // A command does not name the size that the scene has by itself.
-void resetOwnSize(const LoadOptions &load, const Scene &scene, RenderOptions &options) {
+void resetOwnSize(const LoadOptions& load, const Scene& scene, RenderOptions& options) {
   if (!load.size && options.size == ImageSize{scene.width, scene.height}) options.size.reset();
 }
 
+std::string instantOf(const TracedFrame& frame) {
+  if (!frame.request.seconds) return "";
+  const std::string time = formatted(" --time %.17g", *frame.request.seconds);
+  return frame.animation.empty() ? time : time + " --animation " + quoted(frame.animation);
+}
+
 std::string settingsFile() {
-  const char *const config = std::getenv("XDG_CONFIG_HOME");
+  const char* const config = std::getenv("XDG_CONFIG_HOME");
   if (config && *config) return std::string(config) + "/whit/viewer.json";
-  const char *const home = std::getenv("HOME");
+  const char* const home = std::getenv("HOME");
   return std::string(home ? home : "") + "/.config/whit/viewer.json";
 }
 
@@ -197,12 +206,11 @@ bool isPicture(DebugView view) { return view == DebugView::none || view == Debug
 
 }  // namespace
 
-std::string viewCommand(const std::string &scene, const cli::CommonOptions &common,
-                        const TracedFrame &frame, RenderOptions options) {
-  const Scene &shown = frame.scene->scene;
-  // The metadata's options have "auto" resolved, which can choose other
-  // instructions.
-  setCamera(shown, frame.request.camera, options);
+std::string viewCommand(const std::string& scene, const cli::CommonOptions& common,
+                        const TracedFrame& frame, RenderOptions options) {
+  const Scene& shown = frame.scene->scene;
+  // The metadata's options have "auto" resolved, which can choose other instructions.
+  setCamera(frame, options);
   resetOwnSize(common.load, shown, options);
   RenderOptions usual;
   applySceneOptions(shown.options, {}, usual);
@@ -212,14 +220,11 @@ std::string viewCommand(const std::string &scene, const cli::CommonOptions &comm
   if (!isPicture(view)) text = "whit-view " + quoted(scene) + " --view=" + viewName(view);
   text = commandWith(text, options, usual);
 
-  if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
-  if (frame.request.seconds && !frame.animation.empty()) {
-    text += " --animation " + quoted(frame.animation);
-  }
+  text += instantOf(frame);
 
   // The edits of the scene, and the permission to read a sky from elsewhere.
-  const EditedScene &edited = *frame.edited;
-  for (const std::string &setting : edited.settings) text += " --set " + quoted(setting);
+  const EditedScene& edited = *frame.edited;
+  for (const std::string& setting : edited.settings) text += " --set " + quoted(setting);
   if (!edited.givenSky.empty()) text += " --sky " + quoted(edited.givenSky);
   if (common.load.allowOutside ||
       skyLeavesFolder(scene, common.load.shippedScenes, edited.settings)) {
@@ -228,10 +233,10 @@ std::string viewCommand(const std::string &scene, const cli::CommonOptions &comm
   return text;
 }
 
-SavedScene saveScene(const LoadOptions &load, const std::string &name, const TracedFrame &frame,
-                     const Camera &camera, RenderOptions options, const RenderOptions &chosen) {
-  const Scene &scene = frame.scene->scene;
-  const EditedScene &edited = *frame.edited;
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const TracedFrame& frame,
+                     const Camera& camera, RenderOptions options, const RenderOptions& chosen) {
+  const Scene& scene = frame.scene->scene;
+  const EditedScene& edited = *frame.edited;
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
 
@@ -241,7 +246,12 @@ SavedScene saveScene(const LoadOptions &load, const std::string &name, const Tra
   std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
   Json root = document ? editedFile(std::move(*document), parsed, edited)
                        : sceneOfModel(path, scene, edited);
-  lookThrough(camera, scene, root);
+  // The reader may put a camera that flies the path, or a supplied one, before the others.
+  if (fliesPath(frame) || root.contains("view")) {
+    options.camera = lookThrough(camera, scene, root);
+  } else if (!sameView(camera, scene.cameras.front())) {
+    lookThrough(camera, scene, root);
+  }
 
   RenderOptions stated;
   if (document) applySceneOptions(scene.options, {}, stated);
@@ -259,19 +269,19 @@ SavedScene saveScene(const LoadOptions &load, const std::string &name, const Tra
   const std::vector<std::string> materials = namesIn(scene.materials);
   const bool hasGround = std::ranges::find(materials, kGroundShadowName) != materials.end();
   return {file,
-          commandWith(renderOf(file, saved), options, stated) +
+          commandWith(renderOf(file, saved), options, stated) + instantOf(frame) +
               (leavesFolder ? " --allow-outside" : ""),
           !document && hasGround};
 }
 
-ImageMetadata pngMetadata(const TracedFrame &frame) {
+ImageMetadata pngMetadata(const TracedFrame& frame) {
   ImageMetadata metadata = frame.metadata;
   const DebugView view = frame.request.view;
   if (!isPicture(view)) metadata.emplace_back("view", viewName(view));
   return metadata;
 }
 
-std::string savePicture(const TracedFrame &frame) {
+std::string savePicture(const TracedFrame& frame) {
   const cli::WriteScope scope;
   const DebugView view = frame.request.view;
   const std::string kind = view == DebugView::none ? "" : "-" + viewName(view);
@@ -293,11 +303,11 @@ KeptSettings readKeptSettings() try {
   kept.window = {json.at("window").at(0), json.at("window").at(1)};
   kept.recent = json.at("recent").get<std::vector<std::string>>();
   return kept;
-} catch (const std::exception &) {
+} catch (const std::exception&) {
   return {};
 }
 
-void writeKeptSettings(const KeptSettings &kept) try {
+void writeKeptSettings(const KeptSettings& kept) try {
   const Json json{{"panel", kept.panel},
                   {"tab", kept.tab},
                   {"window", {kept.window.width, kept.window.height}},
@@ -306,12 +316,12 @@ void writeKeptSettings(const KeptSettings &kept) try {
   fs::create_directories(file.parent_path());
   const cli::WriteScope scope;
   writeTextFile(file, json.dump(2) + "\n");
-} catch (const std::exception &error) {
+} catch (const std::exception& error) {
   std::fprintf(stderr, "whit-view: the viewer's settings were not saved: %s\n",
                printable(error.what()).c_str());
 }
 
-void rememberRecent(const std::string &scene, std::vector<std::string> &recent) {
+void rememberRecent(const std::string& scene, std::vector<std::string>& recent) {
   constexpr std::size_t kMostRecent = 10;
   const bool isFile = scene.find_first_of("./") != std::string::npos;
   const std::string name = isFile ? fs::absolute(scene).lexically_normal().string() : scene;
