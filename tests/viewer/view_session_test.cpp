@@ -138,6 +138,17 @@ TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
   EXPECT_EQ(state().sceneName, other);
 }
 
+TEST_F(Sessions, AFileThatChangesWhileItIsReadIsReadAgain) {
+  const std::shared_ptr<OpenScene> scene = openAndWarn(options_.scene, options_.common, nullptr);
+  const std::filesystem::file_time_type before = std::filesystem::last_write_time(tiny_);
+  std::filesystem::last_write_time(tiny_, before + std::chrono::seconds(1));
+
+  begin(scene);
+  settle();
+  EXPECT_NE(state().scene, scene);
+  EXPECT_EQ(state().message, "the scene was read again");
+}
+
 TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
   session_->act("set depth 1000");
   EXPECT_TRUE(hasText(state().error, "depth"));
