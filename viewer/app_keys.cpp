@@ -153,7 +153,8 @@ void App::saveScene() {
 
   const SavedScene saved = session_.saveScene();
   printLine(saved.command);
-  session_.say("saved the scene as " + saved.file + "; the command that renders it was printed");
+  session_.say("saved the scene as " + saved.file + "; the command that renders it was printed" +
+               (saved.leavesGround ? "; the shadow on the ground was left out" : ""));
 }
 
 void App::click(const Input::Click& place) {

@@ -11,6 +11,7 @@ OpenScene::OpenScene(const OpenScene& other)
       load(other.load),
       strict(other.strict),
       warnings(other.strict),
+      fileTime(other.fileTime),
       loadMs(other.loadMs),
       isMade(other.isMade) {
   // Warnings hold a mutex, so that they are copied entry by entry.
@@ -23,6 +24,9 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      bool strict, Progress* progress, const LookAtScene& look) {
   const Stopwatch stopwatch;
   auto open = std::make_unique<OpenScene>(strict);
+  if (!source.text) {
+    open->fileTime = timeOf(findScene(parseSceneName(source.name).file, load.shippedScenes));
+  }
 
   SceneDescription description = source.text
                                      ? loadScene(*source.text, load, open->warnings, progress)

@@ -1,6 +1,7 @@
 // A scene, and what it was read from.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -30,7 +31,8 @@ struct OpenScene {
   LoadOptions load;  // with the settings (--set) of the scene as it is now
   bool strict;
   Warnings warnings;
-  double loadMs = 0;    // reading and baking
+  std::filesystem::file_time_type fileTime{};  // time of the scene's file before it was read
+  double loadMs = 0;                           // reading and baking
   bool isMade = false;  // made or moved by a program: no command line opens it
   // Locked while the scene is moved to another time, if other threads read it.
   mutable std::mutex moving;

@@ -184,6 +184,11 @@ std::string inLowerCase(std::string text) {
 
 std::string extensionOf(const fs::path& path) { return inLowerCase(path.extension().string()); }
 
+fs::file_time_type timeOf(const fs::path& file) {
+  std::error_code error;
+  return fs::last_write_time(file, error);
+}
+
 fs::path dataFolder() {
   const char* const variable = std::getenv("WHIT_DATA");
   return variable ? variable : "";

@@ -17,6 +17,10 @@ namespace whit {
 std::string inLowerCase(std::string text);
 std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
 
+// Returns when the file was last written; the least time where there is none, which is no error
+// because it may just be replaced.
+std::filesystem::file_time_type timeOf(const std::filesystem::path& file);
+
 // Returns the folder $WHIT_DATA; the path is empty where the variable is not set.
 std::filesystem::path dataFolder();
 

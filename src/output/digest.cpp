@@ -104,8 +104,8 @@ void add(Digester& d, const EnvironmentImage& image) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, origin, width, height, options, cameras, cameraPath, animations,
-               variants, lights, sky, ambient, fog, materials, textures] =
+  const auto& [name, isModel, origin, upright, width, height, options, cameras, cameraPath,
+               animations, variants, lights, sky, ambient, fog, materials, textures] =
       static_cast<const SceneContents&>(scene);
   const auto& [blurred, mediumOfMaterial, media, geometries, instances, triangles, firstSphere,
                normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,

@@ -57,6 +57,7 @@ struct SceneContents {
   // A point of the scene in coordinates of the file. Where nothing was moved the bits stay, those
   // of -0 included.
   Vec3d inFile(const Vec3d& point) const { return origin == Vec3d() ? point : point + origin; }
+  Affine upright;                              // how the reader has turned a model alone
   int width = 480, height = 300;               // the scene's own image size
   std::map<std::string, std::string> options;  // options of the picture, see applySceneOptions()
   std::vector<Camera> cameras;                 // the first is the default

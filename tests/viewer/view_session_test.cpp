@@ -83,6 +83,21 @@ TEST_F(Sessions, OptionsAndEditsAreUndone) {
   expectNothingToUndo();
 }
 
+// Exact spheres are part of the acceleration structure, which the next picture builds anew. The
+// rays of the pixel are asked for again before and after that.
+TEST_F(Sessions, BuiltInEffectsAreChosenWithAPixelPicked) {
+  session_->open("glass");
+  settle();
+  act("click 24 16");
+  for (const bool on : {false, true}) {
+    act(on ? "effect spheres 1" : "effect spheres 0");
+    EXPECT_EQ(state().error, "");
+    EXPECT_EQ(state().options.disable.has(Effect::spheres), !on);
+    EXPECT_EQ(state().shown.effects.has(Effect::spheres), on);
+    EXPECT_TRUE(state().rays.query.picture.options == state().shown.request.options);
+  }
+}
+
 TEST_F(Sessions, AnEditThatFailsIsNoStateToReturnTo) {
   edit("/sky={\"image\": \"missing.exr\"}");
   EXPECT_EQ(state().errors, 1);
@@ -121,6 +136,17 @@ TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
 
   settle();
   EXPECT_EQ(state().sceneName, other);
+}
+
+TEST_F(Sessions, AFileThatChangesWhileItIsReadIsReadAgain) {
+  const std::shared_ptr<OpenScene> scene = openAndWarn(options_.scene, options_.common, nullptr);
+  const std::filesystem::file_time_type before = std::filesystem::last_write_time(tiny_);
+  std::filesystem::last_write_time(tiny_, before + std::chrono::seconds(1));
+
+  begin(scene);
+  settle();
+  EXPECT_NE(state().scene, scene);
+  EXPECT_EQ(state().message, "the scene was read again");
 }
 
 TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {

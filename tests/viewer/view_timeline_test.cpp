@@ -101,19 +101,34 @@ TEST_F(MovingPictures, KeepWhatWasEdited) {
 TEST_F(Viewer, PlaysUntilItIsPaused) {
   save("tiny.json", movingScene());
   const Words lines =
-      commandsOf(2,
+      commandsOf(4,
                  "bare\nasked\nwait 58 frames\nkey Space\nwait 3 frames\nwait sharp\n"
-                 "screenshot shown.png\nkey C\n"
-                 "key A 0.2\nkey Space\nwait 30 frames\nkey Space\nwait sharp\nkey C\n",
+                 "screenshot shown.png\nkey C\nkey Ctrl+S\n"
+                 "key A 0.2\nkey Space\nwait 30 frames\nkey Space\nwait 3 frames\nwait sharp\n"
+                 "screenshot moved.png\nkey C\nkey Ctrl+S\n",
                  "240x160");
   // The camera's own place is that of the file at this time.
   EXPECT_TRUE(lines[0].starts_with("whit render tiny.json -o tiny.png --size=240x160 --time 1.0"))
       << lines[0];
-  // The paused picture is the one that the command renders at this time.
-  expectThatItShows("shown.png", lines[0]);
+  EXPECT_TRUE(hasText(lines[2], "--eye")) << "moved by hand";
+  EXPECT_TRUE(hasText(lines[2], "--time 1."));
 
-  EXPECT_TRUE(hasText(lines[1], "--eye")) << "moved by hand";
-  EXPECT_TRUE(hasText(lines[1], "--time 1."));
+  // The paused picture is the one that the command renders at this time, also of the saved scene.
+  for (const std::size_t i : {0, 1}) expectThatItShows("shown.png", lines[i]);
+  for (const std::size_t i : {2, 3}) expectThatItShows("moved.png", lines[i]);
+}
+
+// At a time the reader puts a camera that flies the path before the others.
+TEST_F(Viewer, ACameraThatDoesNotFlyThePathIsNamed) {
+  Json scene = Json::parse(movingScene());
+  scene["path"] = {{{"time", 0}, {"eye", {0, 2, 6}}}, {{"time", 1}, {"eye", {6, 2, 0}}}};
+  save("tiny.json", scene.dump());
+  const Words lines =
+      commandsOf(2,
+                 "bare\nasked\nwait 30 frames\nkey Space\nwait 3 frames\nwait sharp\n"
+                 "screenshot shown.png\nkey C\nkey Ctrl+S\n",
+                 "240x160");
+  for (const std::string& command : lines) expectThatItShows("shown.png", command);
 }
 
 // The bar of the time is there without a panel. A click on its button pauses, and then the picture

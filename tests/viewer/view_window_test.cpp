@@ -162,11 +162,29 @@ TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
   EXPECT_FALSE(sameIn("middle.png", "bare.png", {0, 0, 500, 150}));
 }
 
+constexpr const char* kBox =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+// The reader fits a supplied camera to the size that it is given, but the window shows the camera
+// that fits the scene's own size.
+TEST_F(Viewer, AModelIsPrintedAsItIsSeenInAWindowOfAnyShape) {
+  save("box.obj", kBox);
+  for (const std::string size : {"90 150", "240 150", "300 60"}) {
+    const Words lines = commandsOf(1,
+                                   "bare\nasked\nresize " + size +
+                                       "\ndrop box.obj\nwait 60 frames\nwait sharp\n"
+                                       "screenshot shown.png\nkey C\n",
+                                   "");
+    const bool hasShapeOfScene = size == "240 150";
+    EXPECT_EQ(hasText(lines[0], "--eye"), !hasShapeOfScene) << lines[0];
+    expectThatItShows("shown.png", lines[0]);
+  }
+}
+
 // No drag loses a model; F fits it.
 TEST_F(Viewer, AModelStaysInThePicture) {
-  save("box.obj",
-       "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-       "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  save("box.obj", kBox);
   play(
       "bare\nasked\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
       "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"

@@ -90,14 +90,17 @@ RayPick FrameTracer::explain(const RayQuery& query) {
   const Scene& scene = engine_->scene();
 
   // While the query is answered, the renderer has the query's options, except those that would need
-  // other workers or another acceleration structure.
+  // other workers. It keeps its own if they would need another acceleration structure: then it
+  // already traces a picture with other options, whose rays are asked for next.
   RenderOptions options = renderer.options();
   takeOver(query.picture.options, Rebuild::tables, options);
+  if (!renderer.canSetOptions(options)) options = renderer.options();
   const OptionsInUse used(renderer, options);
 
   // The film has the size of the picture, but memory for the queried pixel only.
   Film film;
-  sizeFilm(film, options.size.value(), Crop{query.x, query.y, query.x + 1, query.y + 1});
+  sizeFilm(film, query.picture.options.size.value(),
+           Crop{query.x, query.y, query.x + 1, query.y + 1});
 
   RayPick pick{engine_->opened(), query, {}, {}, {}, {}};
   pick.rays = explainRays(renderer, query.picture.camera, film, query.x, query.y);

@@ -19,11 +19,6 @@ constexpr float kExposureLimit = 64;
 // A drag of this length with the right button counts as a notch of the wheel.
 constexpr double kPixelsPerNotch = 20;
 
-std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
-  std::error_code error;  // a file that is just being replaced is not an error
-  return std::filesystem::last_write_time(file, error);
-}
-
 std::shared_ptr<OpenScene> emptyScene() {
   // The scene has light, so that notice() does not explain why the picture is black.
   const Json root{{"whit", 1}, {"ambient", {{"color", 1}}}};
@@ -420,7 +415,7 @@ void Session::followRays() {
 
   // The query keeps the camera and the size of the pick; everything else follows the picture.
   RayQuery query = *picked_;
-  query.picture.options = state_.options;
+  query.picture.options = state_.shown.request.options;
   query.picture.options.size = picked_->picture.options.size;
   query.picture.reloads = reloads_;
   query.picture.edits = edits_;
@@ -480,7 +475,7 @@ void Session::watch(const std::string& scene) {
   state_.sceneName = scene;
   if (state_.scene->isMade) return;
   sceneFile_ = findScene(parseSceneName(scene).file, options_.common.load.shippedScenes);
-  sceneFileTime_ = timeOf(sceneFile_);
+  sceneFileTime_ = state_.scene->fileTime;
 }
 
 void Session::watchSceneFile() {

@@ -23,9 +23,16 @@ namespace {
 
 constexpr std::uint64_t kSettingsBytesLimit = 1 << 16;
 
+// A command with a time begins with the camera that flies the path, if no other is named.
+bool fliesPath(const TracedFrame& frame) {
+  return frame.request.seconds && !frame.scene->scene.cameraPath.empty();
+}
+
 // Sets the options to the scene's camera that equals this one, or to the first that the options can
 // turn into it, and to the members that differ.
-void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+void setCamera(const TracedFrame& frame, RenderOptions& options) {
+  const Scene& scene = frame.scene->scene;
+  const Camera& camera = frame.request.camera;
   const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
   const auto canBecome = [&](Camera known) {
     forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
@@ -36,7 +43,7 @@ void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
   auto named = std::find_if(first, end, isSame);
   if (named == end) named = std::find_if(first, end, canBecome);
   if (named == end) named = first;
-  if (named != first) options.camera = named->name;
+  if (named != first || fliesPath(frame)) options.camera = named->name;
 
   // Members that differ from those of the named camera become options of their own.
   forEachCameraOption([&](auto option, auto member) {
@@ -44,6 +51,13 @@ void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
     if (camera.*member == (*named).*member) return;
     options.*option = optionOf<Option>(camera.*member, scene.origin);
   });
+
+  // The reader fits the supplied camera of a model anew to a picture of another shape.
+  const ImageSize size = options.size.value();
+  if (!scene.isModel || named != first) return;
+  if (1.0 * size.width * scene.height == 1.0 * size.height * scene.width) return;
+  options.eye = optionOf<Vec3d>(camera.eye, scene.origin);
+  options.at = optionOf<Vec3d>(camera.at, scene.origin);
 }
 
 // Returns the first name that is free, of name(1), name(2) and so on.
@@ -119,20 +133,25 @@ Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& e
     if (section == "materials" || section == "variant") applySceneSetting(setting, item);
   }
 
-  // A model alone is moved to the origin when it is read, but one in a scene file is not.
-  if (const Vec3d origin = scene.origin; origin != Vec3d()) {
-    item.root["transform"] = {{"translate", {-origin.x, -origin.y, -origin.z}}};
+  // A model alone is turned upright and moved to the origin when it is read, but one in a scene
+  // file is not.
+  Json transform = Json::array();
+  if (const Affine& turn = scene.upright; turn != Affine()) {
+    const auto& [x, y, z, p] = turn;
+    transform.push_back({{"matrix", {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0}}});
   }
+  if (const Vec3d origin = scene.origin; origin != Vec3d()) {
+    transform.push_back({{"translate", {-origin.x, -origin.y, -origin.z}}});
+  }
+  if (!transform.empty()) item.root["transform"] = std::move(transform);
 
   root["scene"] = Json::array({std::move(item.root)});
   return root;
 }
 
-// Makes `camera` the first one, under a name of its own. The path's first keyframe states what it
-// took from the old first camera.
-void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
-  if (sameView(camera, scene.cameras.front())) return;
-
+// Makes `camera` the first one, under a name of its own, which is returned. The path's first
+// keyframe states what it took from the old first camera.
+std::string lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   const Json others = root.contains("cameras") ? root["cameras"] : Json::object();
   std::string name = "saved";
   for (int i = 2; others.contains(name); ++i) name = "saved " + std::to_string(i);
@@ -141,12 +160,13 @@ void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   for (const auto& [known, value] : others.items()) cameras[known] = value;
   root["cameras"] = std::move(cameras);
 
-  if (scene.cameraPath.empty()) return;
+  if (scene.cameraPath.empty()) return name;
   Json& first = root["path"][0];
   const Json begin = describe(scene.cameraPath.front().camera);
   for (const auto& [key, value] : begin.items()) {
     if (!first.contains(key)) first[key] = value;
   }
+  return name;
 }
 
 // Writes the options that differ from those that the scene states so far, which are in `stated`.
@@ -164,6 +184,12 @@ void stateOptions(const RenderOptions& chosen, RenderOptions& stated, Json& root
 // A command does not name the size that the scene has by itself.
 void resetOwnSize(const LoadOptions& load, const Scene& scene, RenderOptions& options) {
   if (!load.size && options.size == ImageSize{scene.width, scene.height}) options.size.reset();
+}
+
+std::string instantOf(const TracedFrame& frame) {
+  if (!frame.request.seconds) return "";
+  const std::string time = formatted(" --time %.17g", *frame.request.seconds);
+  return frame.animation.empty() ? time : time + " --animation " + quoted(frame.animation);
 }
 
 std::string settingsFile() {
@@ -184,7 +210,7 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
                         const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
   // The metadata's options have "auto" resolved, which can choose other instructions.
-  setCamera(shown, frame.request.camera, options);
+  setCamera(frame, options);
   resetOwnSize(common.load, shown, options);
   RenderOptions usual;
   applySceneOptions(shown.options, {}, usual);
@@ -194,10 +220,7 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
   if (!isPicture(view)) text = "whit-view " + quoted(scene) + " --view=" + viewName(view);
   text = commandWith(text, options, usual);
 
-  if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
-  if (frame.request.seconds && !frame.animation.empty()) {
-    text += " --animation " + quoted(frame.animation);
-  }
+  text += instantOf(frame);
 
   // The edits of the scene, and the permission to read a sky from elsewhere.
   const EditedScene& edited = *frame.edited;
@@ -223,7 +246,12 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
   Json root = document ? editedFile(std::move(*document), parsed, edited)
                        : sceneOfModel(path, scene, edited);
-  lookThrough(camera, scene, root);
+  // The reader may put a camera that flies the path, or a supplied one, before the others.
+  if (fliesPath(frame) || root.contains("view")) {
+    options.camera = lookThrough(camera, scene, root);
+  } else if (!sameView(camera, scene.cameras.front())) {
+    lookThrough(camera, scene, root);
+  }
 
   RenderOptions stated;
   if (document) applySceneOptions(scene.options, {}, stated);
@@ -238,8 +266,12 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const Tra
   writeTextFile(file, root.dump(2) + "\n");
 
   resetOwnSize(load, scene, options);
-  return {file, commandWith(renderOf(file, saved), options, stated) +
-                    (leavesFolder ? " --allow-outside" : "")};
+  const std::vector<std::string> materials = namesIn(scene.materials);
+  const bool hasGround = std::ranges::find(materials, kGroundShadowName) != materials.end();
+  return {file,
+          commandWith(renderOf(file, saved), options, stated) + instantOf(frame) +
+              (leavesFolder ? " --allow-outside" : ""),
+          !document && hasGround};
 }
 
 ImageMetadata pngMetadata(const TracedFrame& frame) {

@@ -16,7 +16,8 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
 
 struct SavedScene {
   std::string file;
-  std::string command;  // renders the scene with its view
+  std::string command;        // renders the scene with its view
+  bool leavesGround = false;  // the shadow on the ground is left out: a scene file cannot hold it
 };
 
 // Writes NAME-edited.json, with the first number that is free, into the current folder. It is the

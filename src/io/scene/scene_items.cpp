@@ -166,7 +166,8 @@ class ItemReader {
     Model& model = context_.model(path, "");
     Body content = contentOf(model, path, file);
     nameItem(content, path.stem().string());
-    layout_.append(content, {upright(file, path, content)}, layout_.body(0));
+    context_.scene.upright = upright(file, path, content);
+    layout_.append(content, {context_.scene.upright}, layout_.body(0));
 
     const Vec3d origin = layout_.moveToOrigin(context_.scene);
     if (origin != Vec3d()) {
