@@ -1,9 +1,3 @@
-# Measures the viewer in motion, without a window.
-if(TARGET whit_session)
-  add_executable(whit-walk viewer/walk.cpp)
-  target_link_libraries(whit-walk PRIVATE whit_session)
-endif()
-
 # Some on a virtual display, by whit-view-script, which is whit-view with a scripted user.
 if(TARGET whit-view)
   add_executable(whit-view-script viewer/whit_view_script.cpp viewer/script.cpp)
