@@ -307,7 +307,7 @@ mutations() {
     'value != optionText(stated, name)' 'value == optionText(stated, name)'
   plant efficiency-without-threads src/cli/bench.cpp '100 * alone / ms / threads' '100 * alone / ms'
   plant compare-files-unexposed src/cli/compare.cpp \
-    'result.exposure = job.common.render.exposure.ev;' 'result.exposure = 0;'
+    'result.exposure = common.render.exposure.ev;' 'result.exposure = 0;'
   plant ray-tree-far-off src/cli/explain.cpp 'jsonOf(scene.inFile(n.position))' 'jsonOf(n.position)'
 
   testedBy cli_test 'Images.Resum*:Film.*:Options.*:Program.*:DeadEnds.*:Interrupt*:Limits.*:Render.*'
