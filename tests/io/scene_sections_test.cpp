@@ -281,6 +281,7 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
       "'roughness': 0.1, 'specular': 0.5},'coat': {'mirror': 0.1, 'mirrorGrazing': 1, 'emission': "
       "[3,2,1]},'both': {'mirror': 0.1, 'specular': 0.5, 'glossyReflection': true},'dull': "
       "{'specular': 0.5, 'glossyReflection': false}}");
+
   const char* const expected[] = {
       ("{'diffuse': 0.25, 'castsShadow': true, 'diffuseReflection': false, "
        "'glossyReflection': true}"),
@@ -294,6 +295,7 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
       "{'glossyReflection': true}",
       "{'glossyReflection': false}",
   };
+
   ASSERT_EQ(scene.materials.size(), std::size(expected));
   for (std::size_t i = 0; i < std::size(expected); ++i) {
     SCOPED_TRACE(scene.materials[i].name);
