@@ -29,25 +29,33 @@ inline bool isGroundShadow(const SceneDescription& scene, const Mesh& mesh) {
   return material < scene.materials.size() && scene.materials[material].name == kGroundShadowName;
 }
 
-// The unit sphere: its facets are within half a percent of it, and touch it where it meets the
-// axes.
-inline const Mesh& facettedSphere() {
-  constexpr int kSegments = 32;
-  static const Mesh facetted = [] {
-    Mesh mesh;
-    mesh.spheres = {Affine()};
-    procedural::tessellateSpheres(mesh, kSegments);
-    return mesh;
-  }();
-  return facetted;
+inline Mesh facettedSphere(int segments) {
+  Mesh mesh;
+  mesh.spheres = {Affine()};
+  procedural::tessellateSpheres(mesh, segments);
+  return mesh;
+}
+
+// Returns the facets by which the spheres of the scene are looked at. They touch the unit sphere
+// where it meets the axes. Those of a few spheres are within half a percent of it; many take less
+// time.
+inline const Mesh& facetsOfSpheres(const SceneDescription& scene) {
+  constexpr std::size_t kFewSpheres = 1000;
+  static const Mesh fine = facettedSphere(32), coarse = facettedSphere(8);
+
+  std::size_t spheres = 0;
+  for (const Instance& instance : scene.instances) {
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) spheres += mesh.spheres.size();
+  }
+  return spheres <= kFewSpheres ? fine : coarse;
 }
 
 inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
+  const std::size_t facets = facetsOfSpheres(scene).triangles.size();
   std::uint64_t count = 0;
   for (const Instance& instance : scene.instances) {
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
-      count += mesh.triangles.size();
-      if (!mesh.spheres.empty()) count += mesh.spheres.size() * facettedSphere().triangles.size();
+      count += mesh.triangles.size() + mesh.spheres.size() * facets;
     }
   }
   return count;
@@ -74,6 +82,7 @@ template <typename Use>
 void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
                            std::optional<double> seconds = {}) {
   const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
+  const Mesh& facets = facetsOfSpheres(scene);
   const double time = seconds.value_or(scene.motion.seconds);
   const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
 
@@ -110,7 +119,7 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
       useTriangles(mesh, mesh.deformation ? bent : mesh.positions, toWorld);
 
       for (const Affine& sphere : mesh.spheres) {
-        useTriangles(facettedSphere(), facettedSphere().positions, toWorld * sphere);
+        useTriangles(facets, facets.positions, toWorld * sphere);
       }
     }
   }
