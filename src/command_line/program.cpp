@@ -53,7 +53,7 @@ void installInterruptHandlers() {
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 
-  // What nohup starts ignores the end of its terminal.
+  // A program that nohup has started goes on when its terminal ends.
   struct sigaction inherited {};
   sigaction(SIGHUP, nullptr, &inherited);
   if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
