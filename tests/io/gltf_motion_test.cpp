@@ -79,6 +79,10 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   EXPECT_EQ(all[1].name, "rise");
   EXPECT_EQ(all[1].seconds, 2);
   EXPECT_EQ(all[1].nodes, 1u);
+
+  // Accessors should state their largest number.
+  const std::string silent = replaced(text, "'max':[2]", "'name':'times'");
+  EXPECT_EQ(loadText(silent).animations.at(0).seconds, 2);
 }
 
 TEST_F(GltfMotion, WhatDoesNotMoveHasNoTime) {
