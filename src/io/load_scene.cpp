@@ -82,16 +82,31 @@ void readViewMembers(JsonObject& members, SceneDescription& scene) {
   }
 }
 
-// Returns the view for a supplied camera, which has to see the whole animation that is played.
+// Returns the time of the last key of all that plays: one animation of each model, and what the
+// scene file moves itself. None: nothing plays.
+std::optional<double> endOfAnimations(const SceneContext& context) {
+  std::optional<double> end;
+  const auto playFirst = [&](const std::vector<Animation>& all, const std::string& name) {
+    const auto isPlayed = [&](const Animation& a) { return name.empty() || a.name == name; };
+    const auto played = std::ranges::find_if(all, isPlayed);
+    if (played != all.end()) end = std::max(end.value_or(0), played->seconds);
+  };
+
+  for (const auto& [path, model] : context.models) {
+    playFirst(model->animations(), context.instant.animation);
+  }
+  playFirst(context.scene.animations, kSceneMotion);
+  return end;
+}
+
+// Returns the view for a supplied camera, which has to see all that plays.
 ModelView viewOfAnimation(const SceneContext& context) {
   const SceneDescription& scene = context.scene;
-  const std::string& played = context.instant.animation;
-  for (const Animation& animation : scene.animations) {
-    const bool supplies = scene.cameras.empty() || scene.asksForView();
-    if (!supplies || !context.instant.moves()) break;
-    if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
-  }
-  return viewOf(scene);
+  const bool supplies = scene.cameras.empty() || scene.asksForView();
+  if (!supplies || !context.instant.moves()) return viewOf(scene);
+
+  const std::optional<double> end = endOfAnimations(context);
+  return end ? viewOf(scene, *end) : viewOf(scene);
 }
 
 // Puts the camera before the others, which keep their nodes.

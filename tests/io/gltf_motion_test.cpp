@@ -168,6 +168,15 @@ TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {
   }
 }
 
+TEST_F(GltfMotion, TheSuppliedViewOfASceneHoldsAllThatMoves) {
+  save("m.gltf", moved(animation("translation", {0, 1}, {0, 0, 0, 1, 0, 0})));
+  options_.instant.plays = true;
+  Scene film = bake(
+      loadMembers("'view':'model','scene':[{'model':'m.gltf'},{'shape':'box','motion':{'keys':["
+                  "{'time':0},{'time':4,'translate':[20,0,0]}]}}]"));
+  EXPECT_LT(farthestInFilm(film, film.cameras.at(0), 0, 4), 1);
+}
+
 // Only the animation that is played affects the view, and only a view that is computed from the
 // model.
 TEST_F(GltfMotion, OtherAnimationsDoNotChangeTheSuppliedView) {
