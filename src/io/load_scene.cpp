@@ -49,7 +49,8 @@ Light supplied(const char* name, const Vec3f& position, float distance, float le
 // gets one lamp below its ceiling instead, as bright about half across the room as the first light.
 void supplyLights(const ModelView& view, SceneDescription& scene) {
   constexpr float kFill = 0.25f, kAcross = 0.4f;
-  const float size = std::max(static_cast<float>(2 * view.radius), 1e-6f);
+  constexpr float kLeastSize = 1e-15f;  // so that the square of the lights' radius is a number
+  const float size = std::max(static_cast<float>(2 * view.radius), kLeastSize);
   const Vec3f center(view.center);
   const Vec3f key = Vec3f(0.6f, 1.0f, 0.8f) * size, fill = Vec3f(-1.0f, -0.2f, 0.9f) * size;
 
