@@ -30,6 +30,11 @@ class LineReader {
 
   bool done() const { return at_ == end_; }
   void nextLine();
+  // Goes to where another reader of this text is.
+  void goTo(const LineReader& other) {
+    at_ = other.at_;
+    line_ = other.line_;
+  }
   std::string place() const { return concat(file_, ":", line_); }
   std::uint64_t line() const { return line_; }
   std::size_t at() const { return at_ - text_.data(); }

@@ -49,7 +49,8 @@ Light supplied(const char* name, const Vec3f& position, float distance, float le
 // gets one lamp below its ceiling instead, as bright about half across the room as the first light.
 void supplyLights(const ModelView& view, SceneDescription& scene) {
   constexpr float kFill = 0.25f, kAcross = 0.4f;
-  const float size = std::max(static_cast<float>(2 * view.radius), 1e-6f);
+  constexpr float kLeastSize = 1e-15f;  // so that the square of the lights' radius is a number
+  const float size = std::max(static_cast<float>(2 * view.radius), kLeastSize);
   const Vec3f center(view.center);
   const Vec3f key = Vec3f(0.6f, 1.0f, 0.8f) * size, fill = Vec3f(-1.0f, -0.2f, 0.9f) * size;
 
@@ -82,16 +83,31 @@ void readViewMembers(JsonObject& members, SceneDescription& scene) {
   }
 }
 
-// Returns the view for a supplied camera, which has to see the whole animation that is played.
+// Returns the time of the last key of all that plays: one animation of each model, and what the
+// scene file moves itself. None: nothing plays.
+std::optional<double> endOfAnimations(const SceneContext& context) {
+  std::optional<double> end;
+  const auto playFirst = [&](const std::vector<Animation>& all, const std::string& name) {
+    const auto isPlayed = [&](const Animation& a) { return name.empty() || a.name == name; };
+    const auto played = std::ranges::find_if(all, isPlayed);
+    if (played != all.end()) end = std::max(end.value_or(0), played->seconds);
+  };
+
+  for (const auto& [path, model] : context.models) {
+    playFirst(model->animations(), context.instant.animation);
+  }
+  playFirst(context.scene.animations, kSceneMotion);
+  return end;
+}
+
+// Returns the view for a supplied camera, which has to see all that plays.
 ModelView viewOfAnimation(const SceneContext& context) {
   const SceneDescription& scene = context.scene;
-  const std::string& played = context.instant.animation;
-  for (const Animation& animation : scene.animations) {
-    const bool supplies = scene.cameras.empty() || scene.asksForView();
-    if (!supplies || !context.instant.moves()) break;
-    if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
-  }
-  return viewOf(scene);
+  const bool supplies = scene.cameras.empty() || scene.asksForView();
+  if (!supplies || !context.instant.moves()) return viewOf(scene);
+
+  const std::optional<double> end = endOfAnimations(context);
+  return end ? viewOf(scene, *end) : viewOf(scene);
 }
 
 // Puts the camera before the others, which keep their nodes.

@@ -55,13 +55,13 @@ TEST_F(FarModels, ObjAndPlyKeepTheirEdges) {
   const std::string strays = "v 0 0 0\n" + kFarObj + "v 1e7 0 0\n";
   expectLegsOfOne(loadObj(replaced(strays, "f 1 2 3", "f -3 -2 -1")), kFirst);
 
-  expectLegsOfOne(
-      load(save("far.ply",
-                "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
-                "property double y\nproperty double z\nelement face 1\n"
-                "property list uchar int vertex_indices\nend_header\n4000000.1 500000.2 10\n"
-                "4000001.1 500000.2 10\n4000000.1 500001.2 10\n3 0 1 2\n")),
-      kFirst);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "4000000.1 500000.2 10\n4000001.1 500000.2 10\n4000000.1 500001.2 10\n0 0 0\n3 0 1 2\n";
+  expectLegsOfOne(load(save("strays.ply", ply)), kFirst);
+  const std::string whole = replaced(replaced(ply, "vertex 4", "vertex 3"), "0 0 0\n", "");
+  expectLegsOfOne(load(save("far.ply", whole)), kFirst);
 }
 
 // Moved, it stands on both sides of the plane y = 0, which its file does not say.

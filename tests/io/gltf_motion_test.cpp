@@ -79,6 +79,10 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   EXPECT_EQ(all[1].name, "rise");
   EXPECT_EQ(all[1].seconds, 2);
   EXPECT_EQ(all[1].nodes, 1u);
+
+  // Accessors should state their largest number.
+  const std::string silent = replaced(text, "'max':[2]", "'name':'times'");
+  EXPECT_EQ(loadText(silent).animations.at(0).seconds, 2);
 }
 
 TEST_F(GltfMotion, WhatDoesNotMoveHasNoTime) {
@@ -162,6 +166,15 @@ TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {
     EXPECT_LT(turning, 1) << "a turntable shows one time";
     EXPECT_GT(turning, 0.8);
   }
+}
+
+TEST_F(GltfMotion, TheSuppliedViewOfASceneHoldsAllThatMoves) {
+  save("m.gltf", moved(animation("translation", {0, 1}, {0, 0, 0, 1, 0, 0})));
+  options_.instant.plays = true;
+  Scene film = bake(
+      loadMembers("'view':'model','scene':[{'model':'m.gltf'},{'shape':'box','motion':{'keys':["
+                  "{'time':0},{'time':4,'translate':[20,0,0]}]}}]"));
+  EXPECT_LT(farthestInFilm(film, film.cameras.at(0), 0, 4), 1);
 }
 
 // Only the animation that is played affects the view, and only a view that is computed from the
@@ -267,13 +280,13 @@ class GltfSkin : public GltfMotion {
   std::vector<float> xyz = {0, 0, 0, 1, 1, 0, 0, 2, 0};
   std::vector<std::uint16_t> joints = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
   std::vector<float> weights = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0};
-  std::string attributes;  // further attributes of the primitive
+  std::string attributes, rest;  // further attributes and members of the primitive
 
   // Returns a mesh and a skin whose members are given.
   std::string skinned(const std::string& skin) {
     const std::string influences =
         ",'JOINTS_0':" + add("VEC4", joints) + ",'WEIGHTS_0':" + floats("VEC4", weights);
-    return "'meshes':[{'primitives':[" + primitive(positions(xyz), influences + attributes) +
+    return "'meshes':[{'primitives':[" + primitive(positions(xyz), influences + attributes, rest) +
            "]}],'skins':[{" + skin + "}]";
   }
 
@@ -392,6 +405,12 @@ TEST_F(GltfSkin, JointsThatAreMissingAreLeftOut) {
   // The node, at x = 50, would show the corner there without a skin.
   expectNearInFloat(cornerOf(loadText(text()), 1), {51, 1, 0});
   expectWarned("vertex that no joint holds placed by its node");
+}
+
+TEST_F(GltfSkin, TrianglesOfVerticesThatAreMissingAreLeftOut) {
+  rest = ",'indices':" + add<std::uint32_t>("SCALAR", {0, 1, 2, 0, 1, 4294967295u});
+  EXPECT_EQ(bake(loadText(text())).triangles.size(), 1u);
+  expectWarned("triangle with a vertex index out of range dropped");
 }
 
 TEST_F(GltfSkin, BrokenSkinsAreRefused) {

@@ -89,6 +89,14 @@ TEST_F(SceneMotionFile, LoopsBeginAgain) {
   expectNear(placed(at(3.5, scene(item(line + "true")))), {1, 0, 0});
   expectNear(placed(at(0.5, scene(item(line + "true")))), {3, 0, 0});
   expectNear(placed(at(3.5, scene(item(line + "false")))), {4, 0, 0});
+
+  // 0.6 is a little less than three times 0.2.
+  const std::string steps =
+      "'interpolation': 'step', 'loop': true, 'keys': [{'time': 0}, {'time': 0.1, 'translate': "
+      "[1, 0, 0]}, {'time': 0.2, 'translate': [2, 0, 0]}]";
+  for (const double seconds : {0.2, 0.4, 0.6, 1.2}) {
+    expectNear(placed(at(seconds, scene(item(steps)))), {0, 0, 0});
+  }
 }
 
 // In a closed loop the speed at the end is that at the beginning. It points from the key before to

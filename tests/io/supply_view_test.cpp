@@ -100,6 +100,15 @@ TEST_F(SuppliedView, AzimuthAndZoomReplaceTheCameraOfTheFile) {
   expectLike(errorOfObj(kTriangleObj), "*m.obj#/zoom: expected*");
 }
 
+TEST_F(SuppliedView, LightsAreAsFarFromATinyModelAsFromAnother) {
+  const auto distance = [&](const std::string& scale) {
+    const SceneDescription scene = loadMembers(
+        "'view': 'model', 'scene': [{'shape': 'quad', 'transform': {'scale': " + scale + "}}]");
+    return length(Vec3d(scene.lights.at(0).position));
+  };
+  EXPECT_NEAR(distance("1e-9") / distance("1"), 1e-9, 1e-14);
+}
+
 TEST_F(SuppliedView, AShadowLiesBelowAModel) {
   const SceneDescription without = loadObj(kTriangleObj);
   options_.settings = {"/ground=true"};

@@ -123,9 +123,10 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
 
-  // Faces that a skin mirrors are turned back.
+  // Faces that a skin mirrors are turned back. Indices are not validated yet.
   for (auto& triangle : mesh.triangles) {
-    if (turnsOver(start.sides, triangle)) std::swap(triangle[1], triangle[2]);
+    const bool isWhole = std::ranges::max(triangle) < mesh.positions.size();
+    if (isWhole && turnsOver(start.sides, triangle)) std::swap(triangle[1], triangle[2]);
   }
   if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
 }

@@ -517,6 +517,16 @@ class TreeReader {
   GltfContent content_;
 };
 
+// Returns the time of the last key. Its accessor should state it, but some files leave it out.
+double lastTime(const GltfDocument& document, const JsonValue& input) {
+  const JsonValue most = accessorOf(document, input)["max"];
+  if (most.size() > 0) return most[0].numberOr(0);
+
+  double last = 0;
+  for (const float time : readTuples(document, input, 1)) last = std::fmax(last, double{time});
+  return last;
+}
+
 }  // namespace
 
 std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
@@ -535,8 +545,7 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
     forEachChannel(document, animations[i],
                    [&](std::size_t node, const Target&, const JsonValue& sampler) {
                      moved.insert(node);
-                     const JsonValue most = accessorOf(document, sampler.need("input"))["max"];
-                     if (most.size() > 0) last = std::max(last, most[0].numberOr(0));
+                     last = std::max(last, lastTime(document, sampler.need("input")));
                    });
     all.push_back({names[i], last, moved.size()});
   }

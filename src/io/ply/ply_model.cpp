@@ -71,6 +71,11 @@ struct PlyElement {
     const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return found == properties.end() ? nullptr : &*found;
   }
+  // The property that holds the corners of faces or strips.
+  const PlyProperty* corners() const {
+    const PlyProperty* const found = find("vertex_indices");
+    return found ? found : find("vertex_index");
+  }
 };
 
 enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kAlpha, kComponents };
@@ -323,7 +328,6 @@ class PlyReader {
     vertices_ = element.count;
 
     std::vector<Vec3d> positions(element.count);
-    BoxOf<Vec3d> box;
     if (normals) mesh_.normals.resize(element.count);
     if (uvs) mesh_.uvs.resize(element.count);
     if (colors) mesh_.colors.resize(element.count);
@@ -337,18 +341,44 @@ class PlyReader {
       });
 
       isTranslucent = isTranslucent || (has[kAlpha] && v[kAlpha] < 1);
-      box.add(positions[i]);
       if (normals) mesh_.normals[i] = {v[kNx], v[kNy], v[kNz]};
       if (uvs) mesh_.uvs[i] = {v[kU], v[kV]};
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
 
     // Positions are rounded after the origin of a far model was subtracted.
-    origin = originOf(box);
+    origin = originOf(boxOfFaces(element, positions));
     mesh_.positions.reserve(element.count);
     for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - origin);
 
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
+  }
+
+  // Returns the box of the vertices that faces use, because others are no part of the model. The
+  // search ends once that box is as large as it is far away, because such a box stays near however
+  // it grows.
+  BoxOf<Vec3d> boxOfFaces(const PlyElement& vertices, const std::vector<Vec3d>& positions) {
+    const LineReader lines = lines_;
+    const std::size_t at = at_;
+
+    BoxOf<Vec3d> box;
+    const auto isNear = [&] { return !box.empty() && length(box.center()) < box.diagonal(); };
+    for (const PlyElement& element : elements_) {
+      if (&element <= &vertices || element.properties.empty()) continue;
+      const PlyProperty* const corners = element.corners();
+      for (std::uint64_t i = 0; i < element.count && !isNear(); ++i) {
+        readElement(element, [&](const PlyProperty& property, double value) {
+          if (&property == corners && isVertex(value)) {
+            box.add(positions[static_cast<std::size_t>(value)]);
+          }
+        });
+      }
+    }
+
+    // The faces are read after this.
+    lines_.goTo(lines);
+    at_ = at;
+    return box;
   }
 
   // Notes a property that is not read. Often such a property would not be visible anyway.
@@ -358,8 +388,7 @@ class PlyReader {
   }
 
   void readFaces(const PlyElement& element) {
-    const PlyProperty* corners = element.find("vertex_indices");
-    if (!corners) corners = element.find("vertex_index");
+    const PlyProperty* const corners = element.corners();
     if (!corners || !corners->countType) {
       throwBadScene(element.where,
                     "expected a list \"vertex_indices\" in the element \"" + element.name + "\"");
@@ -452,10 +481,13 @@ class PlyReader {
     return exists ? static_cast<std::uint32_t>(face.picture) : 0;
   }
 
+  bool isVertex(double corner) const {
+    return corner >= 0 && corner < static_cast<double>(vertices_) && corner == std::floor(corner);
+  }
+
   // Adds a vertex to numbers_. Returns false if there is no such vertex.
   bool addCorner(double corner) {
-    const bool exists = corner >= 0 && corner < static_cast<double>(vertices_);
-    if (!exists || corner != std::floor(corner)) return false;
+    if (!isVertex(corner)) return false;
     numbers_.push_back(static_cast<std::uint32_t>(corner));
     return true;
   }

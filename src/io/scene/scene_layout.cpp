@@ -23,8 +23,13 @@ void addMoved(const BoxOf<Vec3d>& own, const Affine& map, BoxOf<Vec3d>& box) {
 }
 
 BoxOf<Vec3d> boundsOfMesh(const Mesh& mesh) {
+  // Vertices that no triangle uses are no part of the mesh. Indices are not validated yet.
   Box corners;
-  for (const Vec3f& p : mesh.positions) corners.add(p);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      if (corner < mesh.positions.size()) corners.add(mesh.positions[corner]);
+    }
+  }
 
   BoxOf<Vec3d> box;
   if (!corners.empty()) box = {Vec3d(corners.lower), Vec3d(corners.upper)};

@@ -186,8 +186,12 @@ Track::Interpolation readInterpolation(JsonObject& motion) {
 double looped(double seconds, double first, double last) {
   const double period = last - first;
   if (!(period > 0)) return first;
-  const double within = std::fmod(seconds - first, period);
-  return first + (within < 0 ? within + period : within);
+  double within = std::fmod(seconds - first, period);
+  if (within < 0) within += period;
+
+  // At the end of a loop the next one begins. Rounding may leave the time just before that.
+  constexpr double kRounding = 1e-9;
+  return period - within > kRounding * period ? first + within : first;
 }
 
 // Counts a motion of the file as part of the scene's animation kSceneMotion.
