@@ -163,7 +163,7 @@ TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
 // A session that begins without a scene and one that is given the scene show the same.
 TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   options_.common.load.settings = lamp_;
-  options_.common.render.camera = "side";
+  options_.common.render.camera = options_.common.load.camera = "side";
   options_.common.render.fov = 30.0;
   options_.common.given = {"camera", "fov"};
   begin(openAndWarn(options_.scene, options_.common, nullptr));
@@ -183,7 +183,8 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   act("reload");
   EXPECT_EQ(command(), given);
 
-  // Neither holds for another scene, which has no such camera.
+  // Neither holds for another scene, which has no such camera, nor anything that moves.
+  options_.common.load.instant.seconds = 1;
   session_->open("whitted");
   settle();
   EXPECT_EQ(state().error, "");
@@ -242,6 +243,7 @@ TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   act("animation run");
   EXPECT_EQ(state().error, "");
   EXPECT_EQ(state().timeline.animation, "run");
+  act("reload");
   EXPECT_EQ(state().timeline.seconds, 0);
 }
 

@@ -72,6 +72,7 @@ Session::Session(const ViewOptions& options, bool hasScene, const std::shared_pt
 // the command line, otherwise at its first camera and its own time.
 void Session::enterScene(const std::string& name, bool isFirst) {
   watch(name);
+  isFirst_ = isFirst;
   forgetRays();
   subject_ = subjectOf(scene());
   state_.ownSky = state_.edited.sky;
@@ -547,7 +548,7 @@ void Session::readAgain(const std::string& animation) {
   const bool isEdited =
       edited.settings != readSettings_ || edited.givenSky != options_.common.load.sky;
   load({state_.sceneName, edited.settings, animation,
-        isEdited ? std::optional(edited.givenSky) : std::nullopt, state_.options});
+        isEdited ? std::optional(edited.givenSky) : std::nullopt, state_.options, isFirst_});
 }
 
 void Session::setTime(double seconds) {
@@ -775,7 +776,8 @@ void Session::openShipped(const std::string& name) {
 void Session::open(const std::string& name) {
   opening_ = name;
   if (hasScene_) {
-    load({.name = name, .options = state_.options});  // settings belong to the scene that has them
+    // Settings belong to the scene that has them.
+    load({.name = name, .options = state_.options, .isFirst = false});
   } else {
     const LoadOptions& given = options_.common.load;
     load({.name = name, .settings = given.settings, .animation = given.instant.animation});

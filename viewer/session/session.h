@@ -183,7 +183,8 @@ class Session {
   void enterScene(const std::string& name, bool isFirst);
 
   const ViewOptions& options_;
-  bool hasScene_;  // false: the empty scene is shown
+  bool hasScene_;         // false: the empty scene is shown
+  bool isFirst_ = false;  // the scene that is shown is the one of the command line
   ViewState state_;
   SceneReader reader_;
   RenderThread thread_;
