@@ -146,9 +146,9 @@ void Session::advance(double seconds) {
   followRays();
   askForFrame();
 
-  messageSeconds_ -= seconds;
+  messageSeconds_ -= elapsed;
   if (messageSeconds_ <= 0) state_.message.clear();
-  history_.wait(seconds);
+  history_.wait(elapsed);
 }
 
 bool Session::isActive() const {
@@ -598,7 +598,7 @@ void Session::takeScene(bool elsewhere) {
 
   // A scene that was read again keeps the camera and the time.
   if (state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
-  subject_ = subjectOf(scene());
+  followSize();
   history_.replace(present());
   if (scene().cameraPath.empty()) pathTime_.reset();
 
@@ -612,6 +612,15 @@ void Session::takeScene(bool elsewhere) {
   timeline.playing = timeline.there && before.playing;
   say("the scene was read again");
 }
+
+  // The camera that was followed may be gone, or show another view.
+  if (state_.followed) {
+    const std::vector<Camera>& cameras = scene().cameras;
+    const std::size_t followed = *state_.followed;
+    const bool stays = followed < cameras.size() &&
+                       (timeline.there || sameView(cameras[followed], control_.camera()));
+    if (!stays) state_.followed.reset();
+  }
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
 

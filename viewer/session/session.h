@@ -181,6 +181,7 @@ class Session {
   bool followScene();
   void takeScene(bool elsewhere);
   void enterScene(const std::string& name, bool isFirst);
+  void followSize();
 
   const ViewOptions& options_;
   bool hasScene_;         // false: the empty scene is shown
