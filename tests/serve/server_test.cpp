@@ -426,6 +426,22 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
   }
 }
 
+// What is chosen after a pause is undone alone, also while nothing else happens.
+TEST_F(Serving, ChoicesAfterAPauseAreUndoneOneByOne) {
+  session_->watch(1);
+  const auto chosen = [&](const char* line, const char* option, const char* value) {
+    EXPECT_TRUE(session_->post(view::readMessages(line)));
+    const auto shot = waitFor([&](const Shot& shot) {
+      return shot.exact && parseJson(shot.settled, "settled")["options"][option] == value;
+    });
+    return shot ? parseJson(shot->settled, "settled")["options"] : Json();
+  };
+  chosen("set depth 3", "depth", "3");
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  chosen("set spp 2", "spp", "2");
+  EXPECT_EQ(chosen("undo", "spp", "1")["depth"], "3");
+}
+
 // Starts without a scene. The shipped ones are aa and the moving ab.
 class ServingNoScene : public Serving {
  protected:

@@ -19,7 +19,6 @@ constexpr std::size_t kMostMessages = 4096;          // messages that may wait f
 constexpr int kLeastSide = 16, kLargestSide = 4096;  // pixels of a page's picture
 constexpr double kMostWindowPixels = 4e6;            // largest number of pixels
 constexpr double kIdleSeconds = 0.25;                // longest wait of the loop
-constexpr double kLongestSeconds = 0.1;              // longest step of the camera
 constexpr std::chrono::milliseconds kWait{200};      // longest wait of a page for a shot
 constexpr std::chrono::seconds kDownloadTime{30};    // longest wait for a picture to download
 
@@ -134,10 +133,9 @@ void ServedSession::loop() {
       if (quit_) return;
     }
 
-    // Steps are limited in time, so that the camera does not leap after a stall.
     const double seconds = std::exchange(sinceStep, Stopwatch()).ms() / 1000;
     try {
-      step(std::min(seconds, kLongestSeconds));
+      step(seconds);
     } catch (const std::exception& error) {
       session_.fail(error.what());
       changed_ = true;

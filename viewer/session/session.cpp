@@ -16,6 +16,7 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureLimit = 64;
+constexpr double kLongestStep = 0.1;  // seconds: a stall does not make the camera leap
 // A drag of this length with the right button counts as a notch of the wheel.
 constexpr double kPixelsPerNotch = 20;
 
@@ -71,8 +72,8 @@ Session::Session(const ViewOptions& options, bool hasScene, const std::shared_pt
 // Begins with a scene that was not shown before: with the first one at the camera and the time of
 // the command line, otherwise at its first camera and its own time.
 void Session::enterScene(const std::string& name, bool isFirst) {
-  watch(name);
   isFirst_ = isFirst;
+  watch(name);
   forgetRays();
   subject_ = subjectOf(scene());
   state_.ownSky = state_.edited.sky;
@@ -137,7 +138,8 @@ std::string Session::notice() const {
   return text;
 }
 
-void Session::advance(double seconds) {
+void Session::advance(double elapsed) {
+  const double seconds = std::min(elapsed, kLongestStep);
   heldSeconds_ += seconds;
   const bool moved = moveCamera(takeMotion(), seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
@@ -610,8 +612,6 @@ void Session::takeScene(bool elsewhere) {
   const bool goesOn = timeline.animation == before.animation;
   timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;
   timeline.playing = timeline.there && before.playing;
-  say("the scene was read again");
-}
 
   // The camera that was followed may be gone, or show another view.
   if (state_.followed) {
@@ -621,6 +621,16 @@ void Session::takeScene(bool elsewhere) {
                        (timeline.there || sameView(cameras[followed], control_.camera()));
     if (!stays) state_.followed.reset();
   }
+  say("the scene was read again");
+}
+
+// Lets the camera orbit and walk as the size of the scene asks for, if that has changed.
+void Session::followSize() {
+  const Box before = std::exchange(subject_, subjectOf(scene()));
+  if (subject_.lower == before.lower && subject_.upper == before.upper) return;
+  control_ = CameraControl(control_.camera(), cruisingSpeed(scene()));
+  show(control_.camera());
+}
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
 
@@ -728,6 +738,7 @@ void Session::playOrPause() {
     pathTime_.reset();
   } else {
     pathTime_ = scene().cameraPath.front().time;
+    state_.followed.reset();
   }
 }
 
