@@ -175,8 +175,8 @@ void ServedSession::step(double seconds) {
     fresh_.notify_all();
   }
 
-  // Without a page that watches, neither the camera moves nor a picture is traced.
-  if (!watched) return;
+  // Where nobody waits for a picture, neither the camera moves nor one is traced.
+  if (!watched && !downloads) return;
 
   session_.limitPixels(mostPixels_);
   session_.advance(seconds);

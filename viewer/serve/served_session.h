@@ -57,7 +57,7 @@ class ServedSession {
   bool post(std::vector<Message> messages);
   // Returns the newest shot, or null; waits some time for one that is newer than `number`.
   std::shared_ptr<const Shot> wait(std::uint64_t number);
-  // Changes the number of pages. Without any, nothing is traced.
+  // Changes the number of pages. Without any, pictures are traced for downloads only.
   void watch(int more);
   // Limits the pixels of pictures in motion to what the best link can carry.
   void limitPixels(double pixels) { mostPixels_ = pixels; }
