@@ -508,6 +508,16 @@ TEST_F(ServingNoScene, AClickWhileItPlaysListsTheRaysOfItsPixel) {
   }
 }
 
+// The command is that of a picture at rest.
+TEST_F(ServingNoScene, SaysWhetherThereIsACommand) {
+  post("scene ab");
+  EXPECT_TRUE(isTold(live, ",true]"));
+  EXPECT_TRUE(hasText(shot_->live, "\"rests\":false"));
+  post("play");
+  EXPECT_TRUE(isTold(live, "\"rests\":true"));
+  EXPECT_TRUE(hasText(shot_->settled, " --time "));
+}
+
 // Costs are measured at rest.
 TEST_F(ServingNoScene, MeasuringPausesWhatPlays) {
   post("scene ab");

@@ -221,9 +221,14 @@ void ServedSession::fitUpright() {
 
 void ServedSession::publish() {
   const view::ViewState& state = session_.state();
+// Returns whether the picture shown is at rest, as the one of the command is.
+bool ServedSession::rests() const {
+  const view::ViewState& state = session_.state();
+  return state.shown.request.interruptible || state.sharp;
+}
+
   if (!state.shown.scene) return;
-  const bool rests = state.shown.request.interruptible || state.sharp;
-  if (rests) command_ = session_.command();
+  if (rests()) command_ = session_.command();
 
   // The shot always holds the picture and the values that change with every picture.
   told_ = session_.notice();
@@ -242,7 +247,7 @@ void ServedSession::publish() {
   // pixel come, at rest, and with the first picture of a scene, which may play at once. Pages get
   // them only if they differ from the last ones.
   const std::shared_ptr<const OpenScene> settled = std::exchange(settled_, state.shown.scene);
-  const bool said = std::exchange(said_, false) || rests || settled != settled_;
+  const bool said = std::exchange(said_, false) || rests() || settled != settled_;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;
@@ -296,6 +301,7 @@ Json ServedSession::liveJson() const {
             {"sharp", state.sharp},
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
+            {"rests", rests()},
             {"embree", stats.embreeMs()}};
   json["closes"] =
       !state.error.empty() || session_.hasPick() || session_.isReading() || session_.choosesScene();

@@ -74,6 +74,7 @@ class ServedSession {
   void serve(const Message& message);
   void resize(double width, double height, double pixelsForCss);
   void fitUpright();
+  bool rests() const;
   void publish();
   Json tablesJson() const;
   Json liveJson() const;
