@@ -597,6 +597,35 @@ TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   const std::string upright = commandAt(20, 40);
   EXPECT_TRUE(hasText(upright, "--eye"));
   EXPECT_FALSE(hasText(commandAt(64, 40), "--eye"));
+
+  // A camera that somebody has chosen stays.
+  ASSERT_TRUE(session_->post(view::readMessages("camera 1")));
+  const std::string chosen = commandAt(20, 44);
+  EXPECT_TRUE(hasText(chosen, "--camera=side"));
+  EXPECT_FALSE(hasText(chosen, "--eye"));
+}
+
+// Pictures of large pages have fewer pixels than these, and panning follows the pointer there, too.
+TEST_F(Serving, PanningFollowsThePointer) {
+  session_->watch(1);
+  // Returns the point that is looked at after these lines; empty: that of the camera.
+  const auto pointAfter = [&](const std::string& lines, bool isMoved) {
+    EXPECT_TRUE(session_->post(view::readMessages(lines)));
+    std::smatch found;
+    std::string command;
+    EXPECT_TRUE(waitFor([&](const Shot& shot) {
+      command = parseJson(shot.settled, "settled")["command"];
+      const bool moved = std::regex_search(command, found, std::regex(" --at=\\S*"));
+      return moved == isMoved && parseJson(shot.live, "live")["rests"];
+    })) << lines;
+    return found.str();
+  };
+  const auto pannedAt = [&](const std::string& size) {
+    pointAfter("home\nsize " + size, false);
+    return pointAfter("middle 0 10", true);
+  };
+  const std::string usual = pannedAt("800 100 1");
+  EXPECT_EQ(pannedAt("8000 1000 10"), usual);
 }
 
 // Addresses are printed as browsers and ssh take them.

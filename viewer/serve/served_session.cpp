@@ -186,6 +186,7 @@ void ServedSession::step(double seconds) {
 void ServedSession::serve(const Message& message) {
   const auto& n = message.numbers;
   if (message.verb->act) {
+    isCameraChosen_ |= message.verb->name == "camera" || message.verb->name == "home";
     session_.act(message);
   } else if (message.verb->name == "size") {
     resize(n[0], n[1], n[2]);
@@ -198,13 +199,14 @@ void ServedSession::resize(double width, double height, double pixelsForCss) {
     return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
   };
   size_ = {side(width), side(height)};
-  session_.setWindow(size_, size_.height / pixelsForCss, 1);
+  session_.setWindow(size_, height / pixelsForCss, 1);
   fitUpright();
 }
 
 // Shows all of a model in a page that is narrower than the scene's own picture, as telephones are,
 // and undoes that in a wide page. A view that somebody has chosen stays.
 void ServedSession::fitUpright() {
+  if (isCameraChosen_) return;
   const std::optional<std::size_t> followed = session_.state().followed;
   if (!followed && !(upright_ && sameView(*upright_, session_.camera()))) return;
   const Scene& scene = session_.state().scene->scene;
@@ -219,14 +221,14 @@ void ServedSession::fitUpright() {
   }
 }
 
-void ServedSession::publish() {
-  const view::ViewState& state = session_.state();
 // Returns whether the picture shown is at rest, as the one of the command is.
 bool ServedSession::rests() const {
   const view::ViewState& state = session_.state();
   return state.shown.request.interruptible || state.sharp;
 }
 
+void ServedSession::publish() {
+  const view::ViewState& state = session_.state();
   if (!state.shown.scene) return;
   if (rests()) command_ = session_.command();
 
@@ -299,9 +301,9 @@ Json ServedSession::liveJson() const {
             {"error", state.error},
             {"errors", state.errors},
             {"sharp", state.sharp},
+            {"rests", rests()},
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
-            {"rests", rests()},
             {"embree", stats.embreeMs()}};
   json["closes"] =
       !state.error.empty() || session_.hasPick() || session_.isReading() || session_.choosesScene();

@@ -88,6 +88,7 @@ class ServedSession {
   ImageSize size_;
   std::optional<Camera> upright_;  // the view that fits a narrow page
   std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before
+  bool isCameraChosen_ = false;    // a user has asked for a camera of the scene
   std::atomic<double> mostPixels_ = 1e9;
   bool changed_ = true;  // there is something to show
   bool said_ = false;    // the user has asked for something since the last shot
