@@ -15,7 +15,6 @@ namespace whit::view {
 namespace {
 
 constexpr double kIdleSeconds = 0.25;     // longest wait for events, between looks at the file
-constexpr double kLongestSeconds = 0.1;   // longest step: a stall does not make the camera leap
 constexpr double kUndrawnSeconds = 0.05;  // longest time without drawing while a picture is due
 // ImGui answers to an event within four frames: the first shows it, the second what it opened or
 // changed, and in the others the tab and then the panel fit their contents.
@@ -116,8 +115,7 @@ bool App::worthDrawing(bool fresh, double seconds) {
 
 double App::tick() {
   if (scripted_) return ScriptedUser::kSecondsPerFrame;
-  const double seconds = std::exchange(sinceTick_, Stopwatch()).ms() / 1000;
-  return std::min(seconds, kLongestSeconds);
+  return std::exchange(sinceTick_, Stopwatch()).ms() / 1000;
 }
 
 // Names another scene in the title and in the list of recent ones. The first one gives the window

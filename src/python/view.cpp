@@ -70,13 +70,6 @@ std::string View::png() const {
     const std::shared_ptr<Served> served = served_.load();
     if (!served || process_ != getpid()) throwUsage("the view is closed");
 
-    // The session traces only while a page watches; this call counts as one.
-    struct Watch {
-      explicit Watch(serve::ServedSession& s) : session(s) { session.watch(1); }
-      ~Watch() { session.watch(-1); }
-      serve::ServedSession& session;
-    } watch(served->session);
-
     std::string png = served->session.download(false).bytes;
     if (png.empty()) {
       throwIo("the picture of the view takes too long or is closed: close() it, and use render()");

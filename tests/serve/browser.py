@@ -83,8 +83,8 @@ class Browser:
                 return message["result"]
             self.events.append(message)
 
-    def size(self, width, height):
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+    def size(self, width, height, density=1):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=density,
                   mobile=False)
 
     def open(self, url):

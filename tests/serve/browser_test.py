@@ -141,6 +141,13 @@ def test_controls(server):
     browser.wait("controls.get('depth').value === whit.settled.options.depth")
     check(browser.run("return controls.get('depth').value") != "1000", "and springs back")
 
+    browser.run("controls.get('fresnel').focus()")
+    choose("fresnel", "schlick")
+    browser.wait("whit.settled.options.fresnel === 'schlick'")
+    browser.key("KeyZ", "z", modifiers=CTRL)
+    browser.wait("whit.settled.options.fresnel !== 'schlick'")
+    check(browser.run("return controls.get('fresnel').value") != "schlick", "a list shows what undoing returns to")
+
 
 def test_keys_after_controls(server):
     """Walking keys act after a list, a box and a number were used."""
@@ -213,6 +220,19 @@ def test_focus_of_effects(server):
     browser.run("say('undo')")
 
 
+def test_unsteady_click(server):
+    """A click is one although the hand trembles."""
+    open_page(server)
+    browser.run("say('forget')")
+    browser.wait("!whit.settled.tree")
+    x, y = middle()
+    browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    for i in range(8):
+        browser.mouse("mouseMoved", x + i % 2, y, button="left", buttons=1)
+    browser.mouse("mouseReleased", x, y, button="left", buttons=0, clickCount=1)
+    becomes("whit.settled.tree", "a click with a trembling hand shows the rays")
+
+
 def test_lost_release(server):
     """A drag ends where the pointer comes back without a button."""
     open_page(server)
@@ -263,6 +283,15 @@ def test_two_shapes(server):
     check(abs(at[0] - 150) <= 2 and abs(at[1] - 100) <= 2, f"a click is at its pixel: {at}")
     browser.drag(middle(), middle(0.55))
     becomes("shape().fills && whit.exact", "who steers gets the shape of the page")
+
+
+def test_density(server):
+    """A window that is moved to a denser screen gets as many pixels as that has."""
+    open_page(server)
+    across = browser.run("return whit.live.window[0]")
+    browser.size(800, 600, 2)
+    browser.call("Page.captureScreenshot")  # the page is told with the next frame that it draws
+    becomes(f"whit.live.window[0] === {2 * across}", "the picture follows the density of the screen")
 
 
 def test_telephone(server):
@@ -339,10 +368,11 @@ def test_nothing_else(server):
 server = Server(whit, chess, "--quiet")
 spheres = Server(whit, "whitted", "--quiet")
 try:
-    for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_telephone,
-                 test_download):
+    for test in (test_layout, test_motion, test_controls, test_keys_after_controls, test_two_shapes, test_density,
+                 test_telephone, test_download):
         test(server)
-    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_lost_release):
+    for test in (test_rays, test_layouts, test_escape, test_camera_list, test_focus_of_effects, test_unsteady_click,
+                 test_lost_release):
         test(spheres)
     test_no_scene()
     browser.events = [event for event in browser.events if "status of 400" not in str(event)]

@@ -24,6 +24,16 @@ DisplayImage picture(int width, int height, int shade = 0) {
   return image;
 }
 
+// A picture that no format makes small.
+DisplayImage noisePicture(int width, int height) {
+  DisplayImage noise = picture(width, height);
+  std::uint32_t random = 1;
+  for (std::uint8_t& code : noise.rgba) {
+    code = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+  }
+  return noise;
+}
+
 // The picture of a page that draws all tiles that it gets.
 class Drawn {
  public:
@@ -122,14 +132,15 @@ TEST(PictureStream, SendsATileForAnyOfItsPixels) {
   }
 }
 
-// Messages at rest are short. Tiles that do not fit into one come when the picture moves again.
-TEST(PictureStream, TilesLeftOutAreNotForgotten) {
-  DisplayImage noise = picture(400, 300);
-  std::uint32_t random = 1;
-  for (std::uint8_t& code : noise.rgba) {
-    code = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
-  }
+// Messages at rest are short, also for wide pictures.
+TEST(PictureStream, MessagesAtRestAreShort) {
+  PictureStream stream;
+  EXPECT_LT(stream.next(noisePicture(2560, kTileSide), true, 0).bytes.size(), 5 * kExactBytes);
+}
 
+// Tiles that do not fit into one message come when the picture moves again.
+TEST(PictureStream, TilesLeftOutAreNotForgotten) {
+  const DisplayImage noise = noisePicture(400, 300);
   PictureStream stream;
   const std::size_t first = parseJson(stream.next(noise, true, 0).list, "tiles").size();
   const Tiles rest = stream.next(noise, false, 1);
@@ -147,6 +158,10 @@ TEST(PictureStream, WaitsForAcknowledgements) {
   EXPECT_GT(stream.waitedMs(1000), 900);
   EXPECT_FALSE(stream.acknowledge(12345, 1000)) << "of a message that was not sent";
   EXPECT_FALSE(stream.ready());
+
+  // A page on a slow link acknowledges one message after the other.
+  EXPECT_TRUE(stream.acknowledge(1, 900));
+  EXPECT_EQ(stream.waitedMs(1000), 100);
   EXPECT_TRUE(stream.acknowledge(static_cast<std::uint32_t>(sent), 1000));
   EXPECT_TRUE(stream.ready());
   EXPECT_EQ(stream.waitedMs(1000), 0);

@@ -351,8 +351,8 @@ class ServingAnOddName : public Serving {
   ServingAnOddName() : Serving(600, "a\"; b=\n2.json") {}
 };
 
+// No page has to be open.
 TEST_F(ServingAnOddName, DownloadsAreNamedByLettersAndDigits) {
-  session_->watch(1);
   const auto answer = client().Get(root_ + "picture.png");
   EXPECT_EQ(answer ? answer->get_header_value("Content-Disposition") : "no answer",
             "attachment; filename=\"a---b--2.png\"");
@@ -426,6 +426,22 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
   }
 }
 
+// What is chosen after a pause is undone alone, also while nothing else happens.
+TEST_F(Serving, ChoicesAfterAPauseAreUndoneOneByOne) {
+  session_->watch(1);
+  const auto chosen = [&](const char* line, const char* option, const char* value) {
+    EXPECT_TRUE(session_->post(view::readMessages(line)));
+    const auto shot = waitFor([&](const Shot& shot) {
+      return shot.exact && parseJson(shot.settled, "settled")["options"][option] == value;
+    });
+    return shot ? parseJson(shot->settled, "settled")["options"] : Json();
+  };
+  chosen("set depth 3", "depth", "3");
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  chosen("set spp 2", "spp", "2");
+  EXPECT_EQ(chosen("undo", "spp", "1")["depth"], "3");
+}
+
 // Starts without a scene. The shipped ones are aa and the moving ab.
 class ServingNoScene : public Serving {
  protected:
@@ -490,6 +506,16 @@ TEST_F(ServingNoScene, AClickWhileItPlaysListsTheRaysOfItsPixel) {
     post(formatted("click %d 9", x));
     EXPECT_TRUE(isTold(settled, formatted("\"pixel\":[%d,9]", x)));
   }
+}
+
+// The command is that of a picture at rest.
+TEST_F(ServingNoScene, SaysWhetherThereIsACommand) {
+  post("scene ab");
+  EXPECT_TRUE(isTold(live, ",true]"));
+  EXPECT_TRUE(hasText(shot_->live, "\"rests\":false"));
+  post("play");
+  EXPECT_TRUE(isTold(live, "\"rests\":true"));
+  EXPECT_TRUE(hasText(shot_->settled, " --time "));
 }
 
 // Costs are measured at rest.
@@ -571,6 +597,35 @@ TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   const std::string upright = commandAt(20, 40);
   EXPECT_TRUE(hasText(upright, "--eye"));
   EXPECT_FALSE(hasText(commandAt(64, 40), "--eye"));
+
+  // A camera that somebody has chosen stays.
+  ASSERT_TRUE(session_->post(view::readMessages("camera 1")));
+  const std::string chosen = commandAt(20, 44);
+  EXPECT_TRUE(hasText(chosen, "--camera=side"));
+  EXPECT_FALSE(hasText(chosen, "--eye"));
+}
+
+// Pictures of large pages have fewer pixels than these, and panning follows the pointer there, too.
+TEST_F(Serving, PanningFollowsThePointer) {
+  session_->watch(1);
+  // Returns the point that is looked at after these lines; empty: that of the camera.
+  const auto pointAfter = [&](const std::string& lines, bool isMoved) {
+    EXPECT_TRUE(session_->post(view::readMessages(lines)));
+    std::smatch found;
+    std::string command;
+    EXPECT_TRUE(waitFor([&](const Shot& shot) {
+      command = parseJson(shot.settled, "settled")["command"];
+      const bool moved = std::regex_search(command, found, std::regex(" --at=\\S*"));
+      return moved == isMoved && parseJson(shot.live, "live")["rests"];
+    })) << lines;
+    return found.str();
+  };
+  const auto pannedAt = [&](const std::string& size) {
+    pointAfter("home\nsize " + size, false);
+    return pointAfter("middle 0 10", true);
+  };
+  const std::string usual = pannedAt("800 100 1");
+  EXPECT_EQ(pannedAt("8000 1000 10"), usual);
 }
 
 // Addresses are printed as browsers and ssh take them.

@@ -138,6 +138,62 @@ TEST_F(Sessions, ASceneReadAgainIsNotTakenForAnother) {
   EXPECT_EQ(state().sceneName, other);
 }
 
+// A camera that is gone or was moved is not the one that is shown any more.
+TEST_F(Sessions, ACameraThatIsReadAgainElsewhereIsNotFollowed) {
+  const Json before = jsonIn("tiny.json");
+  for (const bool isGone : {false, true}) {
+    save("tiny.json", before.dump());
+    act("reload");
+    act("camera 1");
+    EXPECT_EQ(state().followed, 1u);
+
+    Json after = before;
+    after["cameras"]["side"]["eye"] = {6, 3, 0};
+    if (isGone) after["cameras"].erase("side");
+    save("tiny.json", after.dump());
+    act("reload");
+    EXPECT_EQ(state().error, "");
+    EXPECT_EQ(state().followed, std::nullopt);
+  }
+}
+
+TEST_F(Sessions, FlightsFollowNoCamera) {
+  EXPECT_EQ(state().followed, 0u);
+  session_->act("play");
+  session_->advance(0.1);
+  EXPECT_EQ(state().followed, std::nullopt);
+}
+
+// A model that was exported at another size is fitted as it is now.
+TEST_F(Sessions, WhatHasGrownIsFitted) {
+  saveTiny("tiny.json", R"("radius": 1)", R"("radius": 3)");
+  act("reload");
+  act("fit");
+  const std::string fitted = command();
+  act("fit");
+  EXPECT_EQ(command(), fitted);
+}
+
+// No option of the command takes a lens from a camera.
+TEST_F(Sessions, TheViewFromAsideOfALensHasACommand) {
+  Json scene = jsonIn("tiny.json");
+  for (Json& camera : scene["cameras"]) camera["aperture"] = 0.5;
+  save("tiny.json", scene.dump());
+  begin(openAndWarn(options_.scene, options_.common, nullptr));
+  settle();
+  act("click 24 16");
+  constexpr int kMostPictures = 1000;
+  for (int picture = 0; picture < kMostPictures && !state().rays.scene; ++picture) settle();
+  act("aside");
+  EXPECT_TRUE(hasText(command(), "--camera=view"));
+  save("shown.png", encodePng(state().shown.film.display));
+
+  const std::string line = WHIT_PROGRAM + command().substr(4) + " --quiet -o again.png";
+  const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
+  ASSERT_EQ(outcome.status, 0) << line << outcome.err;
+  EXPECT_EQ(storedIn("again.png").codes, storedIn("shown.png").codes);
+}
+
 TEST_F(Sessions, AFileThatChangesWhileItIsReadIsReadAgain) {
   const std::shared_ptr<OpenScene> scene = openAndWarn(options_.scene, options_.common, nullptr);
   const std::filesystem::file_time_type before = std::filesystem::last_write_time(tiny_);
@@ -163,7 +219,7 @@ TEST_F(Sessions, ErrorsStayUntilTheyAreDismissed) {
 // A session that begins without a scene and one that is given the scene show the same.
 TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   options_.common.load.settings = lamp_;
-  options_.common.render.camera = "side";
+  options_.common.render.camera = options_.common.load.camera = "side";
   options_.common.render.fov = 30.0;
   options_.common.given = {"camera", "fov"};
   begin(openAndWarn(options_.scene, options_.common, nullptr));
@@ -183,9 +239,11 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   act("reload");
   EXPECT_EQ(command(), given);
 
-  // Neither holds for another scene, which has no such camera.
+  // Neither holds for another scene, which has no such camera, nor anything that moves.
+  options_.common.load.instant.seconds = 1;
   session_->open("whitted");
   settle();
+  act("reload");
   EXPECT_EQ(state().error, "");
   EXPECT_TRUE(command().starts_with("whit render whitted -o whitted.png --size"));
   EXPECT_FALSE(hasText(command(), "--fov"));

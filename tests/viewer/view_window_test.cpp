@@ -54,6 +54,19 @@ const Shown kShown[] = {
      .options = {"--spp", "4", "--camera", "side", "--set", "/cameras/side/aperture=0.3"},
      .parts = {"--camera=side", "--eye="},
      .commands = 2},
+    // Fields of view differ, and the picture is narrower than the aspect of both cameras.
+    {.name = "WithAnAspect",
+     .script = "bare\nasked\nkey 2\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\n"
+               "key C\n",
+     .options = {"--set", "/cameras/front/aspect=3", "--set", "/cameras/side/aspect=3", "--set",
+                 "/cameras/side/fov=25"},
+     .parts = {"--camera=side", "--eye="}},
+    {.name = "WithParallelRaysAndAnAspect",
+     .script = "bare\nasked\nwheel 2\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\n",
+     .options = {"--set",
+                 "/cameras/front={\"eye\":[0,2,6],\"at\":[0,1,0],\"orthographicHeight\":3,"
+                 "\"aspect\":3}"},
+     .parts = {"--ortho="}},
     // F12 is pressed in motion, where the picture is coarser and has one sample.
     {.name = "SavedInMotion",
      .script = "asked\nkey D 0.3\nkey F12\nwait 3 frames\nwait sharp\nkey C\n",

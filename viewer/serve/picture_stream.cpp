@@ -13,7 +13,8 @@ constexpr int kLeastQuality = 40, kLargestQuality = 90, kMostUnderWay = 6;
 // A link counts as full or as free if messages take this much longer than the fastest one.
 constexpr double kFullMs = 90, kFreeMs = 40;
 constexpr double kLeastPixels = 160 * 100;
-constexpr double kLeastMsGrows = 0.2;  // with each acknowledgement, because links change
+constexpr int kExactWidth = 4 * kTileSide;  // a PNG of this width has about kExactBytes
+constexpr double kLeastMsGrows = 0.2;       // with each acknowledgement, because links change
 
 int tilesIn(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 
@@ -68,8 +69,9 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
     if (state == TileState::exact || (state == TileState::lossy && !exact)) continue;
 
     ++tiles;
-    const bool goesOn =
-        !parts.empty() && parts.back().y == y && parts.back().x + parts.back().width == x;
+    const bool goesOn = !parts.empty() && parts.back().y == y &&
+                        parts.back().x + parts.back().width == x &&
+                        !(exact && parts.back().width >= kExactWidth);
     if (goesOn) {
       parts.back().width += part.width;
     } else {
@@ -111,6 +113,7 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
 bool PictureStream::acknowledge(std::uint32_t number, double nowMs) {
   const auto found = std::ranges::find(underWay_, number, &Sent::number);
   if (found == underWay_.end()) return false;
+  heardMs_ = nowMs;
   adapt(nowMs - found->ms);
   underWay_.erase(underWay_.begin(), found + 1);  // messages are drawn in order
   return true;

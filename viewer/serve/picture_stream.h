@@ -7,6 +7,7 @@
 // quality and the number of pixels in motion follow from it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -39,9 +40,9 @@ class PictureStream {
   // Notes that the page has drawn the message of this number. Returns false if it was not under
   // way.
   bool acknowledge(std::uint32_t number, double nowMs);
-  // Returns the time for which the oldest message has been under way, or 0 if there is none.
+  // Returns for how long the page has acknowledged nothing although messages are under way.
   double waitedMs(double nowMs) const {
-    return underWay_.empty() ? 0 : nowMs - underWay_.front().ms;
+    return underWay_.empty() ? 0 : nowMs - std::max(underWay_.front().ms, heardMs_);
   }
 
   // Returns the largest number of pixels in motion that the link can carry.
@@ -59,6 +60,7 @@ class PictureStream {
   DisplayImage last_;                                           // the newest picture
   std::vector<TileState> states_;  // states of its tiles once all messages are drawn
   std::deque<Sent> underWay_;
+  double heardMs_ = 0;  // time of the last acknowledgement
   std::uint32_t number_ = 0;
   int window_ = 3;  // messages that may be under way
   int quality_ = 80;

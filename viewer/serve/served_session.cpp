@@ -19,7 +19,6 @@ constexpr std::size_t kMostMessages = 4096;          // messages that may wait f
 constexpr int kLeastSide = 16, kLargestSide = 4096;  // pixels of a page's picture
 constexpr double kMostWindowPixels = 4e6;            // largest number of pixels
 constexpr double kIdleSeconds = 0.25;                // longest wait of the loop
-constexpr double kLongestSeconds = 0.1;              // longest step of the camera
 constexpr std::chrono::milliseconds kWait{200};      // longest wait of a page for a shot
 constexpr std::chrono::seconds kDownloadTime{30};    // longest wait for a picture to download
 
@@ -134,10 +133,9 @@ void ServedSession::loop() {
       if (quit_) return;
     }
 
-    // Steps are limited in time, so that the camera does not leap after a stall.
     const double seconds = std::exchange(sinceStep, Stopwatch()).ms() / 1000;
     try {
-      step(std::min(seconds, kLongestSeconds));
+      step(seconds);
     } catch (const std::exception& error) {
       session_.fail(error.what());
       changed_ = true;
@@ -177,8 +175,8 @@ void ServedSession::step(double seconds) {
     fresh_.notify_all();
   }
 
-  // Without a page that watches, neither the camera moves nor a picture is traced.
-  if (!watched) return;
+  // Where nobody waits for a picture, neither the camera moves nor one is traced.
+  if (!watched && !downloads) return;
 
   session_.limitPixels(mostPixels_);
   session_.advance(seconds);
@@ -188,6 +186,7 @@ void ServedSession::step(double seconds) {
 void ServedSession::serve(const Message& message) {
   const auto& n = message.numbers;
   if (message.verb->act) {
+    isCameraChosen_ |= message.verb->name == "camera" || message.verb->name == "home";
     session_.act(message);
   } else if (message.verb->name == "size") {
     resize(n[0], n[1], n[2]);
@@ -200,13 +199,14 @@ void ServedSession::resize(double width, double height, double pixelsForCss) {
     return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
   };
   size_ = {side(width), side(height)};
-  session_.setWindow(size_, size_.height / pixelsForCss, 1);
+  session_.setWindow(size_, height / pixelsForCss, 1);
   fitUpright();
 }
 
 // Shows all of a model in a page that is narrower than the scene's own picture, as telephones are,
 // and undoes that in a wide page. A view that somebody has chosen stays.
 void ServedSession::fitUpright() {
+  if (isCameraChosen_) return;
   const std::optional<std::size_t> followed = session_.state().followed;
   if (!followed && !(upright_ && sameView(*upright_, session_.camera()))) return;
   const Scene& scene = session_.state().scene->scene;
@@ -221,11 +221,16 @@ void ServedSession::fitUpright() {
   }
 }
 
+// Returns whether the picture shown is at rest, as the one of the command is.
+bool ServedSession::rests() const {
+  const view::ViewState& state = session_.state();
+  return state.shown.request.interruptible || state.sharp;
+}
+
 void ServedSession::publish() {
   const view::ViewState& state = session_.state();
   if (!state.shown.scene) return;
-  const bool rests = state.shown.request.interruptible || state.sharp;
-  if (rests) command_ = session_.command();
+  if (rests()) command_ = session_.command();
 
   // The shot always holds the picture and the values that change with every picture.
   told_ = session_.notice();
@@ -244,7 +249,7 @@ void ServedSession::publish() {
   // pixel come, at rest, and with the first picture of a scene, which may play at once. Pages get
   // them only if they differ from the last ones.
   const std::shared_ptr<const OpenScene> settled = std::exchange(settled_, state.shown.scene);
-  const bool said = std::exchange(said_, false) || rests || settled != settled_;
+  const bool said = std::exchange(said_, false) || rests() || settled != settled_;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;
@@ -296,6 +301,7 @@ Json ServedSession::liveJson() const {
             {"error", state.error},
             {"errors", state.errors},
             {"sharp", state.sharp},
+            {"rests", rests()},
             {"window", {size_.width, size_.height}},
             {"ms", stats.frameMs},
             {"embree", stats.embreeMs()}};

@@ -57,7 +57,7 @@ class ServedSession {
   bool post(std::vector<Message> messages);
   // Returns the newest shot, or null; waits some time for one that is newer than `number`.
   std::shared_ptr<const Shot> wait(std::uint64_t number);
-  // Changes the number of pages. Without any, nothing is traced.
+  // Changes the number of pages. Without any, pictures are traced for downloads only.
   void watch(int more);
   // Limits the pixels of pictures in motion to what the best link can carry.
   void limitPixels(double pixels) { mostPixels_ = pixels; }
@@ -74,6 +74,7 @@ class ServedSession {
   void serve(const Message& message);
   void resize(double width, double height, double pixelsForCss);
   void fitUpright();
+  bool rests() const;
   void publish();
   Json tablesJson() const;
   Json liveJson() const;
@@ -87,6 +88,7 @@ class ServedSession {
   ImageSize size_;
   std::optional<Camera> upright_;  // the view that fits a narrow page
   std::size_t uprightFrom_ = 0;    // the scene's camera that was shown before
+  bool isCameraChosen_ = false;    // a user has asked for a camera of the scene
   std::atomic<double> mostPixels_ = 1e9;
   bool changed_ = true;  // there is something to show
   bool said_ = false;    // the user has asked for something since the last shot

@@ -11,6 +11,10 @@ std::unique_ptr<Engine> readScene(const SceneChoice& choice, cli::CommonOptions 
                                   Progress* progress) {
   common.load.settings = choice.settings;
   common.load.instant.animation = choice.animation;
+  if (!choice.isFirst) {
+    common.load.camera.clear();
+    common.load.instant.seconds.reset();
+  }
   if (choice.sky) {
     common.load.sky = *choice.sky;
     common.load.allowOutside = true;  // the user chose the file of the sky

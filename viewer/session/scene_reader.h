@@ -20,6 +20,7 @@ struct SceneChoice {
   std::optional<std::string> sky = {};  // sky of a scene that is read again with its edits
   // All options of the renderer; without them it has those of the command line and of the scene.
   std::optional<RenderOptions> options = {};
+  bool isFirst = true;  // the camera and the time of the command line belong to it
 };
 
 // Reads the scene and builds its renderer. Throws as the reader and the renderer.

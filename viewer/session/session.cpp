@@ -16,6 +16,7 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureLimit = 64;
+constexpr double kLongestStep = 0.1;  // seconds: a stall does not make the camera leap
 // A drag of this length with the right button counts as a notch of the wheel.
 constexpr double kPixelsPerNotch = 20;
 
@@ -71,6 +72,7 @@ Session::Session(const ViewOptions& options, bool hasScene, const std::shared_pt
 // Begins with a scene that was not shown before: with the first one at the camera and the time of
 // the command line, otherwise at its first camera and its own time.
 void Session::enterScene(const std::string& name, bool isFirst) {
+  isFirst_ = isFirst;
   watch(name);
   forgetRays();
   subject_ = subjectOf(scene());
@@ -136,7 +138,8 @@ std::string Session::notice() const {
   return text;
 }
 
-void Session::advance(double seconds) {
+void Session::advance(double elapsed) {
+  const double seconds = std::min(elapsed, kLongestStep);
   heldSeconds_ += seconds;
   const bool moved = moveCamera(takeMotion(), seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
@@ -145,9 +148,9 @@ void Session::advance(double seconds) {
   followRays();
   askForFrame();
 
-  messageSeconds_ -= seconds;
+  messageSeconds_ -= elapsed;
   if (messageSeconds_ <= 0) state_.message.clear();
-  history_.wait(seconds);
+  history_.wait(elapsed);
 }
 
 bool Session::isActive() const {
@@ -547,7 +550,7 @@ void Session::readAgain(const std::string& animation) {
   const bool isEdited =
       edited.settings != readSettings_ || edited.givenSky != options_.common.load.sky;
   load({state_.sceneName, edited.settings, animation,
-        isEdited ? std::optional(edited.givenSky) : std::nullopt, state_.options});
+        isEdited ? std::optional(edited.givenSky) : std::nullopt, state_.options, isFirst_});
 }
 
 void Session::setTime(double seconds) {
@@ -597,7 +600,7 @@ void Session::takeScene(bool elsewhere) {
 
   // A scene that was read again keeps the camera and the time.
   if (state_.edited.settings == readSettings_) state_.ownSky = state_.edited.sky;
-  subject_ = subjectOf(scene());
+  followSize();
   history_.replace(present());
   if (scene().cameraPath.empty()) pathTime_.reset();
 
@@ -609,7 +612,24 @@ void Session::takeScene(bool elsewhere) {
   const bool goesOn = timeline.animation == before.animation;
   timeline.seconds = goesOn ? std::min(before.seconds, timeline.length) : 0;
   timeline.playing = timeline.there && before.playing;
+
+  // The camera that was followed may be gone, or show another view.
+  if (state_.followed) {
+    const std::vector<Camera>& cameras = scene().cameras;
+    const std::size_t followed = *state_.followed;
+    const bool stays = followed < cameras.size() &&
+                       (timeline.there || sameView(cameras[followed], control_.camera()));
+    if (!stays) state_.followed.reset();
+  }
   say("the scene was read again");
+}
+
+// Lets the camera orbit and walk as the size of the scene asks for, if that has changed.
+void Session::followSize() {
+  const Box before = std::exchange(subject_, subjectOf(scene()));
+  if (subject_.lower == before.lower && subject_.upper == before.upper) return;
+  control_ = CameraControl(control_.camera(), cruisingSpeed(scene()));
+  show(control_.camera());
 }
 
 void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
@@ -718,6 +738,7 @@ void Session::playOrPause() {
     pathTime_.reset();
   } else {
     pathTime_ = scene().cameraPath.front().time;
+    state_.followed.reset();
   }
 }
 
@@ -775,7 +796,8 @@ void Session::openShipped(const std::string& name) {
 void Session::open(const std::string& name) {
   opening_ = name;
   if (hasScene_) {
-    load({.name = name, .options = state_.options});  // settings belong to the scene that has them
+    // Settings belong to the scene that has them.
+    load({.name = name, .options = state_.options, .isFirst = false});
   } else {
     const LoadOptions& given = options_.common.load;
     load({.name = name, .settings = given.settings, .animation = given.instant.animation});

@@ -78,8 +78,9 @@ class Session {
   void limitPixels(double pixels) { resolution_.setMostPixels(pixels); }
 
   bool fetchFrame();  // returns whether there is something new to show
-  // Moves on by that many seconds, and asks for the picture and the rays that are to be shown next.
-  void advance(double seconds);
+  // Moves on by the seconds that have passed, and asks for the picture and the rays that are to be
+  // shown next.
+  void advance(double elapsed);
   bool isActive() const;  // something moves, or the picture is about to sharpen
   bool isBusy() const { return thread_.busy(); }
   bool isCommitted() const { return thread_.committed(); }  // no request is taken now
@@ -180,10 +181,12 @@ class Session {
   void takeOptions(const Scene& last, bool elsewhere);
   bool followScene();
   void takeScene(bool elsewhere);
+  void followSize();
   void enterScene(const std::string& name, bool isFirst);
 
   const ViewOptions& options_;
-  bool hasScene_;  // false: the empty scene is shown
+  bool hasScene_;         // false: the empty scene is shown
+  bool isFirst_ = false;  // the scene that is shown is the one of the command line
   ViewState state_;
   SceneReader reader_;
   RenderThread thread_;

@@ -28,36 +28,75 @@ bool fliesPath(const TracedFrame& frame) {
   return frame.request.seconds && !frame.scene->scene.cameraPath.empty();
 }
 
-// Sets the options to the scene's camera that equals this one, or to the first that the options can
-// turn into it, and to the members that differ.
-void setCamera(const TracedFrame& frame, RenderOptions& options) {
-  const Scene& scene = frame.scene->scene;
-  const Camera& camera = frame.request.camera;
+// Returns `from` with the members of `to` that options can give.
+Camera turned(Camera from, const Camera& to) {
+  // --fov and --ortho replace the aspect as well.
+  const bool staysFitted = from.fov == to.fov && from.orthographicHeight == to.orthographicHeight;
+  if (!staysFitted) from.aspect = 0;
+  forEachCameraOption([&](auto /*option*/, auto member) { from.*member = to.*member; });
+  return from;
+}
+
+// Returns the scene's camera that equals this one, or the first that options can turn into it for a
+// picture of this aspect ratio; null: there is none.
+const Camera* cameraFor(const Camera& camera, const Scene& scene, double aspect) {
+  const Camera seen = fitted(camera, aspect);
   const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
-  const auto canBecome = [&](Camera known) {
-    forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
-    return isSame(known);
+  const auto canBecome = [&](const Camera& known) {
+    return sameView(fitted(turned(known, camera), aspect), seen);
   };
 
   const auto first = scene.cameras.begin(), end = scene.cameras.end();
   auto named = std::find_if(first, end, isSame);
   if (named == end) named = std::find_if(first, end, canBecome);
-  if (named == end) named = first;
-  if (named != first || fliesPath(frame)) options.camera = named->name;
+  return named == end ? nullptr : &*named;
+}
+
+// Returns a name that no camera of the scene has.
+std::string nameOfView(const Scene& scene) {
+  const std::vector<std::string> names = namesIn(scene.cameras);
+  std::string name = "view";
+  for (int i = 2; std::ranges::find(names, name) != names.end(); ++i) name = concat("view ", i);
+  return name;
+}
+
+// Sets the options that make the camera of the frame from one of the scene's. Returns the setting
+// that adds it to the scene where none can become it; empty otherwise.
+std::string setCamera(const TracedFrame& frame, RenderOptions& options) {
+  const Scene& scene = frame.scene->scene;
+  const ImageSize size = options.size.value();
+  const double aspect = static_cast<double>(size.width) / size.height;
+
+  // What the picture shows of the camera has no aspect, which no option can give.
+  Camera camera = frame.request.camera;
+  const Camera* named = cameraFor(camera, scene, aspect);
+  if (!named) {
+    camera = fitted(camera, aspect);
+    named = cameraFor(camera, scene, aspect);
+  }
+  if (!named) {
+    options.camera = nameOfView(scene);
+    Json added = describe(frame.request.camera);
+    movePoints(added, scene.origin);
+    return "/cameras/" + options.camera + "=" + added.dump();
+  }
+
+  const bool isFirst = named == &scene.cameras.front();
+  if (!isFirst || fliesPath(frame)) options.camera = named->name;
 
   // Members that differ from those of the named camera become options of their own.
   forEachCameraOption([&](auto option, auto member) {
     using Option = typename std::remove_cvref_t<decltype(options.*option)>::value_type;
-    if (camera.*member == (*named).*member) return;
+    if (camera.*member == named->*member) return;
     options.*option = optionOf<Option>(camera.*member, scene.origin);
   });
 
   // The reader fits the supplied camera of a model anew to a picture of another shape.
-  const ImageSize size = options.size.value();
-  if (!scene.isModel || named != first) return;
-  if (1.0 * size.width * scene.height == 1.0 * size.height * scene.width) return;
+  if (!scene.isModel || !isFirst) return "";
+  if (1.0 * size.width * scene.height == 1.0 * size.height * scene.width) return "";
   options.eye = optionOf<Vec3d>(camera.eye, scene.origin);
   options.at = optionOf<Vec3d>(camera.at, scene.origin);
+  return "";
 }
 
 // Returns the first name that is free, of name(1), name(2) and so on.
@@ -210,7 +249,7 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
                         const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
   // The metadata's options have "auto" resolved, which can choose other instructions.
-  setCamera(frame, options);
+  const std::string addedCamera = setCamera(frame, options);
   resetOwnSize(common.load, shown, options);
   RenderOptions usual;
   applySceneOptions(shown.options, {}, usual);
@@ -225,6 +264,7 @@ std::string viewCommand(const std::string& scene, const cli::CommonOptions& comm
   // The edits of the scene, and the permission to read a sky from elsewhere.
   const EditedScene& edited = *frame.edited;
   for (const std::string& setting : edited.settings) text += " --set " + quoted(setting);
+  if (!addedCamera.empty()) text += " --set " + quoted(addedCamera);
   if (!edited.givenSky.empty()) text += " --sky " + quoted(edited.givenSky);
   if (common.load.allowOutside ||
       skyLeavesFolder(scene, common.load.shippedScenes, edited.settings)) {
