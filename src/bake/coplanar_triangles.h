@@ -203,6 +203,9 @@ class CoplanarTriangles {
 // take part. Scenes of more triangles than kMostSearched, each instanced object counted once, are
 // not searched.
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
+// Where things move, scenes of more triangles, those of instances counted each time, are searched
+// at 0 s alone.
+inline constexpr std::uint64_t kMostSearchedInMotion = 20'000;
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
 
 }  // namespace whit

@@ -147,6 +147,19 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
   return box;
 }
 
+// True if the coplanar triangles found at 0 s are used again. They refer to instances by index, so
+// the same instances have to be left. Where these stand elsewhere, surfaces may have met since. A
+// scene of many triangles leaves such meetings to Embree, because a search takes longer than its
+// frames.
+bool servesAtStart(const Scene& scene) {
+  const std::vector<InstanceRecord>& atStart = scene.motion.instancesAtStart;
+  const auto areEqual = [&](auto InstanceRecord::*member) {
+    return std::ranges::equal(scene.instances, atStart, {}, member, member);
+  };
+  if (!scene.motion.isSearched || !areEqual(&InstanceRecord::written)) return false;
+  return scene.instancedTriangles > kMostSearchedInMotion || areEqual(&InstanceRecord::toWorld);
+}
+
 bool setMotion(const std::string& name, const SharedMotion& motion, Rig& rig) {
   bool found = false;
   for (RigNode& node : rig) {
@@ -252,11 +265,7 @@ void moveScene(Scene& scene, double seconds) {
   boundInstances(scene, motion.boxes, expected);
   scene.coincidentSpheres = findCoincidentSpheres(scene, motion.order);
 
-  // The result of the search at 0 s is used again as long as the same instances are left, because
-  // it refers to them by index.
-  std::vector<std::uint32_t> instances;
-  for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
-  if (motion.isSearched && instances == motion.instancesAtStart) {
+  if (servesAtStart(scene)) {
     scene.coplanar = motion.coplanarAtStart;
     return;
   }
@@ -267,7 +276,7 @@ void moveScene(Scene& scene, double seconds) {
   if (std::exchange(motion.isSearched, true)) return;
 
   motion.coplanarAtStart = scene.coplanar;
-  motion.instancesAtStart = std::move(instances);
+  motion.instancesAtStart = scene.instances;
 }
 
 }  // namespace whit

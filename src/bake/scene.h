@@ -105,10 +105,10 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // bounds of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
-  // At 0 s: the coplanar triangles, and the numbers (InstanceRecord::written) of the instances.
+  // At 0 s: the coplanar triangles, and the instances that are not flattened.
   bool isSearched = false;
   CoplanarTriangles coplanarAtStart;
-  std::vector<std::uint32_t> instancesAtStart;
+  std::vector<InstanceRecord> instancesAtStart;
 
   bool ofLights() const { return !given.lights.empty(); }
   bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }

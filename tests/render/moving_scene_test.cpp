@@ -113,6 +113,29 @@ TEST(MovingScene, CoplanarSquaresMoveTogether) {
   }
 }
 
+// A square comes to lie on a larger one, which is seen nowhere below it.
+TEST(MovingScene, SquaresMeetAfterTheStart) {
+  SceneBuilder builder = movedBy([](double seconds) {
+    return Affine::translation({0, 0, 1 - seconds});
+  });
+  const Affine upright = Affine::rotation({1, 0, 0}, 90);
+  for (const float half : {3.0f, 1.0f}) {
+    const std::uint32_t material = builder.add(emittingMaterial(half < 2 ? 1 : 0.25f));
+    builder.place({"square", {floorAt(0, half, material)}},
+                  {Affine::translation(half < 2 ? Vec3d{0.3, -0.2, 0} : Vec3d()) * upright});
+    if (half < 2) builder.description.instances.back().mover = 0;
+  }
+
+  MovingPicture moving(builder.build(), squarePicture());
+  EXPECT_TRUE(moving.scene.coplanar.empty());
+  for (const bool packets : {false, true}) {
+    EXPECT_EQ(std::ranges::count(moving.at(1, packets).pixels, Rgb(1.0f)), 16 * 16) << packets;
+    EXPECT_FALSE(moving.scene.coplanar.empty());
+  }
+  moving.moveTo(0);
+  EXPECT_TRUE(moving.scene.coplanar.empty());
+}
+
 // From 1 s on the transform mirrors at x = 0.
 Affine mirroring(double seconds) { return Affine::scaling({seconds < 1 ? 1.0 : -1.0, 1, 1}); }
 
