@@ -29,6 +29,7 @@ constexpr const char* kAccuracySummary =
     "and\n"
     "DIR/sweep.csv.";
 constexpr ImageSize kQuickSize{256, 256};
+constexpr const char *kAccuracyTable = "sweep.csv", *kAccuracyPage = "report.html";
 
 struct AccuracyJob {
   CommonOptions common;
@@ -81,7 +82,7 @@ void checkJob(AccuracyJob& job) {
   chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
   settings.seed = job.seed;
-  makeFolder(job.out);
+  makeFolder(job.out, {kAccuracyTable, kAccuracyPage});
 }
 
 // Automatic exposure is computed once, so that all pictures of a sweep have the same.
@@ -128,7 +129,7 @@ int accuracyCommand(const Words& words) {
 
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  const std::string table = folder / "sweep.csv", page = folder / "report.html";
+  const std::string table = folder / kAccuracyTable, page = folder / kAccuracyPage;
   writeTextFile(table, accuracy::sweepCsv(sweeps, facts));
   writeTextFile(page, reportPage(accuracy::reportJson(sweeps, facts)));
   printWrittenFiles({table, page}, job.common);

@@ -89,14 +89,18 @@ OptionList listOptions(CompareJob& job) {
 Compared compareFiles(const CompareJob& job) {
   const CommonOptions& common = job.common;
 
-  // Only a picture that is rendered can follow these options.
-  for (const auto& [isGiven, option] :
-       {std::pair{job.stages, "--stages"}, std::pair{!common.render.channels.empty(), "--channels"},
-        std::pair{!common.load.settings.empty(), "--set"},
-        std::pair{!common.load.sky.empty(), "--sky"},
-        std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
-    refuseIf(isGiven, std::string(option) + " needs a scene, not two images");
+  // Only a picture that is rendered can follow options other than those of the display.
+  const auto refuse = [](bool isGiven, const std::string& option) {
+    refuseIf(isGiven, "--" + option + " needs a scene, not two images");
+  };
+  for (const std::string& option : common.given) {
+    refuse(option != "exposure" && option != "tonemap", option);
   }
+  refuse(common.render.exposure.automatic, "exposure auto");
+  refuse(common.load.instant.seconds.has_value(), "time");
+  refuse(!common.load.settings.empty(), "set");
+  refuse(!common.load.sky.empty(), "sky");
+  refuse(job.stages, "stages");
 
   for (const std::string& file : job.subjects) {
     refuseIf(extensionOf(file).empty(), "'" + file + "': expected one scene, or two image files");

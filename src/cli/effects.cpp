@@ -29,6 +29,7 @@ constexpr const char* kEffectsSummary =
     "Measures a scene with nothing but point lights and their shadows, then with one effect more\n"
     "at a time until it is complete. The frames of all steps take turns. Writes DIR/report.html,\n"
     "DIR/effects.csv and a picture of each step: DIR/00-matte.png, DIR/01-sky.png ...";
+constexpr const char *kEffectsTable = "effects.csv", *kEffectsPage = "report.html";
 
 struct EffectsJob {
   CommonOptions common;
@@ -98,7 +99,7 @@ void checkJob(const EffectsJob& job) {
            "whit effects measures packets: leave out --mode reference");
   refuseIf(job.common.given.contains("effects") || job.common.given.contains("disable"),
            "whit effects chooses the effects itself: leave out --effects and --disable");
-  makeFolder(job.out);
+  makeFolder(job.out, {kEffectsTable, kEffectsPage});
 }
 
 }  // namespace
@@ -124,11 +125,11 @@ int effectsCommand(const Words& words) {
   std::vector<std::string> pictures;
   for (const auto i : indices(steps)) pictures.push_back(pictureName(steps, i));
   const Json report = effectsJson(steps, pictures);
-  if (!job.common.quiet) std::printf("%s", effectsTable(report).c_str());
+  std::fputs(effectsTable(report).c_str(), stdout);
 
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  const std::string table = folder / "effects.csv", page = folder / "report.html";
+  const std::string table = folder / kEffectsTable, page = folder / kEffectsPage;
   writeTextFile(table, csvOf(report["effects"]));
   writeTextFile(page, reportPage(report));
   printWrittenFiles({table, page}, job.common);

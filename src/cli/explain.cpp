@@ -63,11 +63,11 @@ PixelPlace readPixel(const std::string& text, const Image& image) {
   const bool read =
       parts.size() == 2 && readNumber(parts[0], place.x) && readNumber(parts[1], place.y);
   if (!read) throwUsage("--pixel expected x,y, as in 240,150; found '" + text + "'");
-  const bool inside =
-      place.x >= 0 && place.y >= 0 && place.x < image.width && place.y < image.height;
-  if (!inside) {
-    throwUsage(
-        concat("--pixel ", text, " is not in the picture of ", image.width, "x", image.height));
+  const Crop& w = image.window;
+  if (!w.contains(place.x, place.y)) {
+    throwUsage(concat("--pixel ", text, " is not in the picture of ", image.width, "x",
+                      image.height, " with pixels ", w.x0, ",", w.y0, " to ", w.x1 - 1, ",",
+                      w.y1 - 1));
   }
   return place;
 }

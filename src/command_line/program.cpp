@@ -1,5 +1,6 @@
 #include "command_line/program.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -39,6 +40,15 @@ extern "C" void onInterrupt(int) {
   if (writers == 0) end();
 }
 
+// Opens the standard streams that are closed. Otherwise a file or a pipe would take their numbers,
+// and ffmpeg would be given it in their place.
+void openStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // What is open for reading alone refuses every result, as a closed stream does.
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+  }
+}
+
 int fail(const std::string& name, ExitStatus status, const std::string& what) {
   std::fprintf(stderr, "%s: %s\n", name.c_str(), printable(what).c_str());
   return static_cast<int>(status);
@@ -60,6 +70,7 @@ void installInterruptHandlers() {
 }
 
 int runProgram(const std::string& name, const std::function<int()>& body) {
+  openStandardStreams();
   installInterruptHandlers();
   signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then an error of the write
 

@@ -11,8 +11,9 @@ namespace whit::cli {
 // Call from the main thread before any other thread is started.
 void installInterruptHandlers();
 
-// Installs the interrupt handlers and runs `body`. An Error gives its status, exhausted memory 5,
-// anything else 1, each with one line "NAME: what" on standard error.
+// Opens standard streams that are closed, installs the interrupt handlers and runs `body`. An Error
+// gives its status, exhausted memory 5, anything else 1, each with one line "NAME: what" on
+// standard error.
 int runProgram(const std::string& name, const std::function<int()>& body);
 
 // The exit statuses of the programs.

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -19,6 +18,7 @@
 #include <system_error>
 
 #include "core/index.h"
+#include "core/option_table.h"
 #include "core/text.h"
 
 namespace whit {
@@ -276,9 +276,8 @@ SceneName parseSceneName(const std::string& name) {
     const std::size_t equals = part.find('=');
     const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
 
-    char* rest = nullptr;
-    const double value = std::strtod(number.c_str(), &rest);
-    if (equals == 0 || number.empty() || *rest != '\0' || !std::isfinite(value)) {
+    double value = 0;
+    if (equals == 0 || !readNumber(number, value)) {
       throwUsage("\"" + name + "\": expected name=number after the question mark, found \"" + part +
                  "\"");
     }

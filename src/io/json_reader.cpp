@@ -1,11 +1,11 @@
 #include "io/json_reader.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <unordered_set>
 
 #include "core/error.h"
 #include "core/index.h"
+#include "core/option_table.h"
 #include "io/files.h"
 
 namespace whit {
@@ -176,10 +176,8 @@ double JsonValue::expression(const std::string& text) const {
   }
   if (sign == text.size()) return parameter->second;
 
-  char* rest = nullptr;
-  const std::string factorText = text.substr(sign + 1);
-  const double factor = std::strtod(factorText.c_str(), &rest);
-  if (factorText.empty() || *rest != '\0') {
+  double factor = 0;
+  if (!readNumber(text.substr(sign + 1), factor)) {
     fail("a parameter such as \"$a\", \"$a*0.5\" or \"$a/2\"");
   }
   return text[sign] == '*' ? parameter->second * factor : parameter->second / factor;

@@ -35,8 +35,9 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
                       "-crf 18 -pix_fmt yuv420p -movflags +faststart -f mp4 -y",
                       width, height, fps),
             ' ');
-  // A leading dash would make the path an option.
-  words.push_back((path.starts_with('-') ? "./" : "") + file_->temporaryPath());
+  // A leading dash would make the path an option, and a colon in its first part a protocol.
+  const std::string temporary = file_->temporaryPath();
+  words.push_back((temporary.starts_with('/') ? "" : "./") + temporary);
   std::vector<char*> arguments(words.size() + 1);  // null is the last
   std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
 

@@ -95,10 +95,12 @@ void requireJsonWritable(const std::string& path) {
   if (!path.empty() && path != "-") requireWritable(path, {});
 }
 
-void makeFolder(const std::string& path) {
+void makeFolder(const std::string& path, const std::vector<std::string>& files) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
+
+  for (const std::string& file : files) requireWritable(std::filesystem::path(path) / file, {});
 }
 
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {

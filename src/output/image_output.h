@@ -18,8 +18,9 @@ namespace whit {
 // to.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
 bool isJpeg(const std::string& path);  // by its extension
-// Makes the folder of results if it does not exist. Throws Error(io).
-void makeFolder(const std::string& path);
+// Makes the folder of results if it does not exist. Throws Error(io) if that fails, or if these
+// files cannot be written into it.
+void makeFolder(const std::string& path, const std::vector<std::string>& files);
 // Does the same for the value of --json, which may also be empty or "-".
 void requireJsonWritable(const std::string& path);
 

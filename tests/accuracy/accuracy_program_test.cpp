@@ -56,6 +56,12 @@ TEST_F(AccuracyProgram, SweepsATinyScene) {
   EXPECT_TRUE(hasText(bytesOf("out/report.html"), "</html>"));
 }
 
+TEST_F(AccuracyProgram, LooksForThePlaceOfItsFilesFirst) {
+  std::filesystem::create_directories(folder_ / "out/report.html");
+  expectFailure("accuracy tiny.json --out out --size 8x8 --knobs spp --time-budget 0", 4,
+                "report.html': it is a folder");
+}
+
 // A sweep against all transport has a fourth cause of errors, and states the truth's own error.
 TEST_F(AccuracyProgram, MeasuresAgainstAllTransport) {
   const std::string table = sweep("tiny.json --truth transport --size 24x16 --time-budget 1");

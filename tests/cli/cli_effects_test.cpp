@@ -75,8 +75,16 @@ TEST_F(EffectsCommand, WritesATableAndAPicture) {
   EXPECT_EQ(report["pictures"][0], "00-matte.png");
 }
 
+TEST_F(EffectsCommand, LooksForThePlaceOfItsFilesFirst) {
+  std::filesystem::create_directories(folder_ / "made/effects.csv");
+  expectFailure("effects tiny.json --out made --frames 1 --size 8x8", 4,
+                "effects.csv': it is a folder");
+}
+
 TEST_F(EffectsCommand, AddsOnlyWhatTheSceneHas) {
-  succeed("effects tiny.json --out . --frames 1");
+  const Outcome outcome = succeed("effects tiny.json --out . --frames 1 --quiet");
+  EXPECT_TRUE(hasText(outcome.out, "+ mirror"));  // the result is not for --quiet to leave out
+  EXPECT_EQ(outcome.err, "");
 
   const std::string csv = bytesOf("effects.csv");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 2 + 2) << csv;  // smooth normals, a mirror

@@ -159,6 +159,23 @@ TEST_F(Film, FramesAreThoseOfTheirOwnFiles) {
   }
   EXPECT_EQ(bytesOf("film.mp4"), frames);
 
+  // Where standard streams are closed, ffmpeg must not get the pipe in their place: it would wait
+  // for ever for the end of what it holds itself.
+  const auto closed = [&] {
+    withPrograms()();
+    close(STDIN_FILENO);
+    close(STDERR_FILENO);
+    alarm(60);
+  };
+  fs::remove(folder_ / "film.mp4");
+  EXPECT_EQ(run("render tiny.json --frames 1..3 --fps 4 -o film.mp4", closed).status, 0);
+  EXPECT_EQ(bytesOf("film.mp4"), frames);
+
+  // A folder is no protocol.
+  fs::create_directory(folder_ / "9:15");
+  EXPECT_EQ(run("render tiny.json --frames 1 -o 9:15/film.mp4", withPrograms()).status, 0);
+  EXPECT_TRUE(hasText(readFile(called), " -y ./9:15/.whit-")) << readFile(called);
+
   // A film of one image is refused.
   EXPECT_EQ(run("render tiny.json -o film.mp4", withPrograms()).status, 2);
 }

@@ -91,6 +91,15 @@ TEST_F(Verify, ASheetOfAllScenes) {
   EXPECT_GT(sheet.height, 2 * 240);
 }
 
+// None of these would have an effect.
+TEST_F(Verify, RefusesOptionsOfAnotherRun) {
+  for (const char* line : {"--hashes 48x30 --json a.json", "--hashes 48x30 --only H38",
+                           "--sheet a.png --html a.html", "--sheet a.png --hashes 48x30",
+                           "--only H38 --simd avx2", "--only H38 --json a.html --html a.html"}) {
+    EXPECT_EQ(verify(line).status, 2) << line;
+  }
+}
+
 TEST_F(Verify, HelpListsTheOptions) {
   const Outcome outcome = verify("--help");
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -75,6 +75,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {R"(explain whitted --pixel "")", "expected --pixel x,y"},
     {"explain whitted --pixel 16,0 --size 16x10", "is not in the picture of 16x10"},
     {"explain whitted --pixel 0,-1 --size 16x10", "is not in the picture of 16x10"},
+    {"explain whitted --pixel 9,2 --size 16x10 --crop 2,3,9,10", "with pixels 2,3 to 8,9"},
     {"explain whitted --pixel 0,0 --svg a.png", ".svg"},
 
     // Options of other programs
@@ -195,6 +196,8 @@ constexpr DeadEnd kDeadEnds[] = {
     {"compare a.exr b.exr --set /lights=[]", "--set"},
     {"compare a.exr b.exr --stages", "--stages"},
     {"compare a.exr b.exr --channels depth", "--channels needs a scene"},
+    {"compare a.exr b.exr --crop 0,0,4,4", "--crop needs a scene, not two images"},
+    {"compare a.exr b.exr --time 1", "--time needs a scene"},
     {"compare a.exr b.exr --sky none", "--sky"},
     {"compare a.exr b.exr --exposure auto", "--exposure"},
     {"info whitted --sphere-segments 3", "at least 4, found 3"},

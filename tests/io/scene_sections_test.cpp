@@ -1,4 +1,7 @@
 // Cameras, lights, sky, materials and textures of scene files.
+#include <clocale>
+#include <cstdlib>
+
 #include "make/studio_sky.h"
 #include "noun_members.h"
 
@@ -401,6 +404,20 @@ TEST_F(SceneSections, ParametersStandForNumbers) {
   EXPECT_EQ(given.width, 100);
   EXPECT_EQ(given.height, 4);
   EXPECT_EQ(given.materials[0].roughness, 0.5f);
+}
+
+// Numbers have points, also where a program that uses the library writes its own with commas.
+TEST_F(SceneSections, NumbersDoNotFollowTheLocale) {
+  const std::string make = "localedef -i de_DE -f UTF-8 " + folder_ + "/de_DE.UTF-8 2>/dev/null";
+  setenv("LOCPATH", folder_.c_str(), 1);
+  const bool isMade = std::system(make.c_str()) == 0 && setlocale(LC_NUMERIC, "de_DE.UTF-8");
+  unsetenv("LOCPATH");
+  if (!isMade) GTEST_SKIP() << "no German locale can be made: numbers with commas are NOT checked";
+
+  const SceneDescription scene =
+      loadMembers("'parameters': {'n': 1}, 'size': ['$n*2.5', 9]", "?n=1.6");
+  setlocale(LC_NUMERIC, "C");
+  EXPECT_EQ(scene.width, 4);
 }
 
 }  // namespace

@@ -51,6 +51,19 @@ class Arrays(unittest.TestCase):
         signed = triangles.astype(np.int32)
         self.assertTrue(np.shares_memory(whit.Mesh(positions, signed).triangles, signed))
 
+    def test_arrays_that_a_program_puts_into_a_mesh(self):
+        corners, triangles = square().positions, square().triangles
+        for positions in (corners.astype(np.float64), corners.astype(np.float16), corners.tolist(),
+                          np.repeat(corners, 2, axis=0)[::2]):
+            mesh = square(positions=np.zeros((4, 3), np.float32))
+            mesh.positions, mesh.triangles = positions, triangles.astype(np.int64)
+            scene = scene_of(mesh)
+            others = [np.full((4, 3), 7, np.float32) for _ in range(1000)]  # where it was freed
+            assert_same(scene, scene_of())
+            self.assertEqual(len(others), 1000)
+        mesh.positions = np.zeros((4, 2))
+        self.expect("positions", "(n, 3)", scene_of, mesh)
+
     def test_triangles_one_after_the_other(self):
         mesh = square()
         assert_same(scene_of(whit.Mesh(mesh.positions[mesh.triangles.ravel()])), scene_of(mesh))

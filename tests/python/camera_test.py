@@ -134,6 +134,8 @@ class Cameras(unittest.TestCase):
 
         before = picture()
         assert_array_equal(picture(camera=scene.camera()), before)
+        unsized = scene.render(camera=CAMERA, size=None)
+        self.assertEqual((unsized.width, unsized.height), CAMERA.size)
         assert_other(picture(camera=CAMERA), before)
         assert_array_equal(picture(), before)
 

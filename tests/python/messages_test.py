@@ -50,6 +50,7 @@ class Messages(unittest.TestCase):
 
     def test_the_documentation_of_render(self):
         self.assertIsNone(COMMAND_LINE.search(whit.Scene.render.__doc__), whit.Scene.render.__doc__)
+        self.assertNotRegex(whit.Scene.render.__doc__, "or y, z or x|see below")
 
     def expect(self, status, words, call, *arguments, **named):
         """Expects an error of that exit status, of Python's own type for it, in Python's words."""

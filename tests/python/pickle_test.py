@@ -65,6 +65,13 @@ class Pickles(unittest.TestCase):
             os.chdir("b")
             self.assert_same(scene, restored(scene))
 
+    def test_a_shipped_scene_is_found_beside_a_folder_of_its_name(self):
+        with temporary_folder():
+            os.mkdir("whitted")
+            scene = whit.Scene("whitted")
+            for other in copies(scene):
+                self.assert_same(scene, other)
+
     def test_pictures(self):
         scene = whit.Scene("whitted")
         names = ["depth", "position", "normal", "albedo", "uv", "object", "material", "triangle",

@@ -324,7 +324,12 @@ int run(const std::vector<std::string>& words) {
       list, words);
   if (!runs) return 0;
 
-  refuseIf(hashes.empty() && !hashed.empty(), "scenes are for --hashes SIZE");
+  refuseIf(hashes.empty() && (!hashed.empty() || simd != "auto"),
+           "scenes and --simd are for --hashes SIZE");
+  refuseIf(!hashes.empty() && !sheet.empty(), "--hashes and --sheet are runs of their own");
+  const bool reportsCases = !only.empty() || !json.empty() || !html.empty();
+  refuseIf(reportsCases && (!hashes.empty() || !sheet.empty()),
+           "--only, --json and --html are of cases, and --hashes and --sheet run none");
   if (!hashes.empty()) {
     const bool same = comparesHashes(picturesToHash(hashes, hashed), simd);
     return static_cast<int>(same ? ExitStatus::done : ExitStatus::checkFailed);
@@ -333,6 +338,7 @@ int run(const std::vector<std::string>& words) {
   requireJsonWritable(json);
   if (!html.empty()) requireWritable(html, {".html"});
   if (!sheet.empty()) requireWritable(sheet, {".png"});
+  cli::requireSeparateFiles({json, html}, common, {});
   const std::vector<std::string> names = caseNames(only);
   auto progress = cli::makeProgressBar(common);
 

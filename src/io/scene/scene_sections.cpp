@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <span>
 
 #include "core/error.h"
@@ -381,7 +380,8 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
 }
 
 Json describe(float x) {
-  const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
+  double shortest = 0;
+  readNumber(formatValue(OptionSpec{}, x), shortest);
   return static_cast<float>(shortest) == x ? shortest : double{x};
 }
 

@@ -271,8 +271,11 @@ class Scene:
         else:
             self._source = (os.fspath(source),)
         self._read(progress)
-        if len(self._source) == 1 and os.path.exists(source):  # copies may be read elsewhere
-            self._source = (os.path.abspath(source),)
+        if len(self._source) == 1 and os.path.exists(source):
+            # Copies may be read elsewhere. A plain word is a shipped scene, even where a file or
+            # folder has its name.
+            if os.path.dirname(source) or os.path.splitext(source)[1]:
+                self._source = (os.path.abspath(source),)
         for text in self.warnings:
             warnings.warn(text, stacklevel=2)
 
@@ -402,7 +405,9 @@ class Scene:
         if not isinstance(camera, Camera):
             texts = _options.texts(options, self._object)
             return Picture(self._object.render(texts, path_time, progress, "", (budget, target)))
-        texts = _options.texts({"size": camera.size, **options, "camera": None}, self._object)
+        size = options.get("size")
+        chosen = {**options, "camera": None, "size": camera.size if size is None else size}
+        texts = _options.texts(chosen, self._object)
         text = Description("camera").text(camera.members)
         return Picture(self._object.render(texts, path_time, progress, text, (budget, target)))
 

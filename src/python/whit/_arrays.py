@@ -128,6 +128,9 @@ class Mesh:
         return f"<whit.Mesh: {len(self.positions)} vertices, {count} triangles>"
 
     def _arrays(self) -> tuple:
-        triangles = _NO_INDICES if self.triangles is None else self.triangles
-        return (self.positions, triangles, *(_NO_FLOATS if array is None else array
-                                             for array in (self.normals, self.uvs, self.colors)))
+        # The extension reads these arrays in place, and a program may have put others into the mesh.
+        mesh = Mesh(self.positions, self.triangles, normals=self.normals, uvs=self.uvs,
+                    colors=self.colors)
+        triangles = _NO_INDICES if mesh.triangles is None else mesh.triangles
+        return (mesh.positions, triangles, *(_NO_FLOATS if array is None else array
+                                             for array in (mesh.normals, mesh.uvs, mesh.colors)))

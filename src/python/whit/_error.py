@@ -93,6 +93,8 @@ _NAMES = (  # what the library says, and what Python says; the first that fits c
     (r"--set (/\S+)=true", r'settings={"\1": True}'),
     (r"--set ", ""),
     (r"--up y", 'settings={"/up": "y"}'),
+    (r"or y, z or x: the axis that is up in", 'whit.Scene(settings={"/up": "z"}) has z up in'),
+    (r"preset of other options, see below", "preset of other options"),
     (r"--viewpoint (outside|inside)", r'settings={"/viewpoint": "\1"}'),
     (r"--(strict|allow-outside)\b", lambda found: found[1].replace("-", "_") + "=True"),
     (r"--max-memory\b", "max_memory_gb"),
