@@ -199,8 +199,9 @@ PathRules::PathRules(const fs::path& sceneFolder, bool allowOutside)
       dataFolder_(dataFolder().empty() ? fs::path() : realPath(dataFolder())),
       allowOutside_(allowOutside) {}
 
-bool PathRules::inside(const fs::path& path) const {
-  return isBelow(path, sceneFolder_) || (!dataFolder_.empty() && isBelow(path, dataFolder_));
+bool PathRules::permits(const fs::path& path) const {
+  return allowOutside_ || isBelow(path, sceneFolder_) ||
+         (!dataFolder_.empty() && isBelow(path, dataFolder_));
 }
 
 fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
@@ -229,7 +230,7 @@ fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
 
   // Links are followed before the check, so that none of them leads out of the permitted folders.
   fs::path result = realPath(path);
-  if (!allowOutside_ && !inside(result)) {
+  if (!permits(result)) {
     throwBadScene(where, "\"" + excerpt(text) +
                              "\" leaves the scene's folder and $WHIT_DATA (--allow-outside "
                              "permits that)");
@@ -242,10 +243,12 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
   std::ranges::replace(text, '\\', '/');
   const fs::path name(text);
 
-  // A file whose path differs only in capitals is preferred to one of that name beside the model.
-  const fs::path fallback =
-      spelledOnDisk(folder, name)
-          .value_or(spelledOnDisk(folder, name.filename()).value_or(fs::path()));
+  // A file whose path differs only in capitals is preferred to one of that name beside the model,
+  // unless it is not permitted.
+  fs::path fallback = spelledOnDisk(folder, name).value_or(fs::path());
+  if (fallback.empty() || !permits(realPath(folder / fallback))) {
+    fallback = spelledOnDisk(folder, name.filename()).value_or(fs::path());
+  }
 
   // A path that is not permitted is an error only if there is no other file.
   try {

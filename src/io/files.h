@@ -36,13 +36,14 @@ class PathRules {
                                 const std::string& where) const;
 
   // Resolves a name in a model, which may have been written on another system: backslashes are
-  // separators. If there is no such file, one whose name differs in capitals is taken, or one of
-  // that name that lies beside the model; such replacements are counted in `warnings`.
+  // separators. If there is no such file, or it is not permitted, one whose name differs in
+  // capitals is taken, or one of that name that lies beside the model; such replacements are
+  // counted in `warnings`.
   std::filesystem::path find(std::string text, const std::filesystem::path& folder,
                              const std::string& where, Warnings& warnings) const;
 
  private:
-  bool inside(const std::filesystem::path& path) const;
+  bool permits(const std::filesystem::path& path) const;  // of a path without links
 
   std::filesystem::path sceneFolder_, dataFolder_;
   bool allowOutside_;
