@@ -149,14 +149,6 @@ bool isUtf16(const std::string& text) {
   throwIo(path, "cannot write '" + path + "': " + std::strerror(error));
 }
 
-// A symbolic link keeps pointing where it points; its target is what is replaced.
-std::string followLink(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  const fs::path target = fs::canonical(path, error);
-  return error ? path : target.string();
-}
-
 // Creates an empty file beside `path`. Its name does not grow with `path`'s, which may already be
 // as long as the file system allows.
 std::string createBeside(const std::string& path) {
@@ -347,13 +339,33 @@ std::string readBeginning(const fs::path& path, std::uint64_t bytes) {
   return read(path, bytes, true);
 }
 
+std::string linkTarget(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+
+  // Links to pipes in /proc can be opened, though the names that they hold lead nowhere.
+  if (fs::exists(path, error)) {
+    const fs::path target = fs::canonical(path, error);
+    return error ? path : target.string();
+  }
+
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  fs::path target(path);
+  for (int links = 0; links < kMostLinks && fs::is_symlink(target, error); ++links) {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  return target.string();
+}
+
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) throwIo("cannot write a file without a name");
-  path_ = followLink(path_);
+  path_ = linkTarget(path_);
 
   struct stat info {};
   if (::stat(path_.c_str(), &info) == 0) {
     if (S_ISDIR(info.st_mode)) throwCannotWrite(path_, EISDIR);
+    // A rename would replace a file that is protected.
+    if (::access(path_.c_str(), W_OK) != 0) throwCannotWrite(path_, errno);
     // Devices and pipes are opened directly, because a rename would replace them by a file.
     if (!S_ISREG(info.st_mode)) {
       temporary_ = path_;
