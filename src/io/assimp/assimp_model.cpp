@@ -15,6 +15,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -121,17 +122,19 @@ void makePrintable(aiNode& node) {
   for (unsigned i = 0; i < node.mNumChildren; ++i) makePrintable(*node.mChildren[i]);
 }
 
-// These formats mean colors of vertices as the screen shows them, and glTF has linear ones.
+// These formats mean colors of vertices as the screen shows them, and glTF has linear ones. Files
+// of OFF may have codes up to 255.
 void makeLinear(aiMesh& mesh) {
-  const auto linear = [](float x) {
-    return x > 0 ? static_cast<float>(srgbToLinear(std::min(double{x}, 1.0))) : 0.0f;
-  };
   if (!mesh.mColors[0]) return;
+  const std::span<aiColor4D> colors(mesh.mColors[0], mesh.mNumVertices);
+  float largest = 0;
+  for (const aiColor4D& c : colors) largest = std::max({largest, c.r, c.g, c.b});
 
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    aiColor4D& color = mesh.mColors[0][i];
-    color = {linear(color.r), linear(color.g), linear(color.b), color.a};
-  }
+  const double white = largest > kLargestColor ? 255 : 1;
+  const auto linear = [white](float x) {
+    return x > 0 ? static_cast<float>(srgbToLinear(std::min(x / white, 1.0))) : 0.0f;
+  };
+  for (aiColor4D& c : colors) c = {linear(c.r), linear(c.g), linear(c.b), c.a};
 }
 
 // Replaces a member of the material.
