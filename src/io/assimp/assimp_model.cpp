@@ -99,8 +99,18 @@ std::uint32_t leaveOutBadFaces(aiMesh& mesh) {
   aiFace* const end = mesh.mFaces + mesh.mNumFaces;
   const auto left = static_cast<std::uint32_t>(end - std::remove_if(mesh.mFaces, end, isBad));
   mesh.mNumFaces -= left;
-  if (mesh.mNumFaces == 0) mesh.mNumVertices = 0;  // or they would be taken for triangles in order
   return left;
+}
+
+// Makes a mesh without faces a point. The library leaves points out, but crashes where a mesh has
+// no vertices.
+void makePoint(aiMesh& mesh) {
+  mesh.mVertices = new aiVector3D[1];
+  mesh.mFaces = new aiFace[1];
+  mesh.mFaces[0].mIndices = new unsigned[1]{0};
+  mesh.mFaces[0].mNumIndices = 1;
+  mesh.mNumVertices = mesh.mNumFaces = 1;
+  mesh.mPrimitiveTypes = aiPrimitiveType_POINT;
 }
 
 // JSON has neither numbers that are not finite nor text that is not UTF-8. Positions that are not
@@ -314,11 +324,20 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
     fail(aiGetErrorString());
     return;
   }
+
   std::uint32_t badFaces = 0;
+  bool hasFaces = false;
   for (unsigned i = 0; i < imported->mNumMeshes; ++i) {
     aiMesh& mesh = *imported->mMeshes[i];
     badFaces += leaveOutBadFaces(mesh);
+    hasFaces = hasFaces || mesh.mNumFaces > 0;
+    if (mesh.mNumFaces == 0) makePoint(mesh);
     if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
+    std::ranges::fill(mesh.mNumUVComponents, 2u);  // glTF has no more; 3ds Max writes three
+  }
+  if (!hasFaces) {
+    fail("it has no faces");
+    return;
   }
 
   // Normals are smoothed before the polygons are split, so that each polygon counts once and not
