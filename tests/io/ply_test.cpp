@@ -261,6 +261,8 @@ TEST_F(Ply, WhatIsLeftOutIsCounted) {
            "to draw: no face that can be built (1 from m.ply)"},
           {ascii(std::string("comment TextureFile none.png\n") + kTriangleHeader) + kTriangle,
            "1; texture left out (1 from *"},
+          {ascii(kTriangleHeader) + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2 9 1 1 1\n",
+           "1; values that no property of the header names left out (2 from m.ply:11)"},
           {ascii(vertex) + "0 0 0\n", "0; model with nothing to draw: no faces (1 from m.ply)"},
           {replaced(ascii(vertex), "vertex 1", "vertex 0"),
            "0; model with nothing to draw: no vertices (1 from m.ply)"},

@@ -264,6 +264,11 @@ class PlyReader {
       const std::uint64_t count = property.countType ? listLength(property) : 1;
       for (std::uint64_t i = 0; i < count; ++i) use(property, number(*property.type));
     }
+
+    // In text each element begins a line. MeshLab writes colors of corners without a property.
+    if (!ascii_ || !lines_.hasMore()) return;
+    warnings_.add("values that no property of the header names left out", place());
+    lines_.rest();
   }
 
   double number(const PlyType& type) {
