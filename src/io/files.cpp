@@ -149,14 +149,6 @@ bool isUtf16(const std::string& text) {
   throwIo(path, "cannot write '" + path + "': " + std::strerror(error));
 }
 
-// A symbolic link keeps pointing where it points; its target is what is replaced.
-std::string followLink(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  const fs::path target = fs::canonical(path, error);
-  return error ? path : target.string();
-}
-
 // Creates an empty file beside `path`. Its name does not grow with `path`'s, which may already be
 // as long as the file system allows.
 std::string createBeside(const std::string& path) {
@@ -199,8 +191,9 @@ PathRules::PathRules(const fs::path& sceneFolder, bool allowOutside)
       dataFolder_(dataFolder().empty() ? fs::path() : realPath(dataFolder())),
       allowOutside_(allowOutside) {}
 
-bool PathRules::inside(const fs::path& path) const {
-  return isBelow(path, sceneFolder_) || (!dataFolder_.empty() && isBelow(path, dataFolder_));
+bool PathRules::permits(const fs::path& path) const {
+  return allowOutside_ || isBelow(path, sceneFolder_) ||
+         (!dataFolder_.empty() && isBelow(path, dataFolder_));
 }
 
 fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
@@ -229,7 +222,7 @@ fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
 
   // Links are followed before the check, so that none of them leads out of the permitted folders.
   fs::path result = realPath(path);
-  if (!allowOutside_ && !inside(result)) {
+  if (!permits(result)) {
     throwBadScene(where, "\"" + excerpt(text) +
                              "\" leaves the scene's folder and $WHIT_DATA (--allow-outside "
                              "permits that)");
@@ -242,10 +235,12 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
   std::ranges::replace(text, '\\', '/');
   const fs::path name(text);
 
-  // A file whose path differs only in capitals is preferred to one of that name beside the model.
-  const fs::path fallback =
-      spelledOnDisk(folder, name)
-          .value_or(spelledOnDisk(folder, name.filename()).value_or(fs::path()));
+  // A file whose path differs only in capitals is preferred to one of that name beside the model,
+  // unless it is not permitted.
+  fs::path fallback = spelledOnDisk(folder, name).value_or(fs::path());
+  if (fallback.empty() || !permits(realPath(folder / fallback))) {
+    fallback = spelledOnDisk(folder, name.filename()).value_or(fs::path());
+  }
 
   // A path that is not permitted is an error only if there is no other file.
   try {
@@ -343,13 +338,33 @@ std::string readBeginning(const fs::path& path, std::uint64_t bytes) {
   return read(path, bytes, true);
 }
 
+std::string linkTarget(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+
+  // Links to pipes in /proc can be opened, though the names that they hold lead nowhere.
+  if (fs::exists(path, error)) {
+    const fs::path target = fs::canonical(path, error);
+    return error ? path : target.string();
+  }
+
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  fs::path target(path);
+  for (int links = 0; links < kMostLinks && fs::is_symlink(target, error); ++links) {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  return target.string();
+}
+
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) throwIo("cannot write a file without a name");
-  path_ = followLink(path_);
+  path_ = linkTarget(path_);
 
   struct stat info {};
   if (::stat(path_.c_str(), &info) == 0) {
     if (S_ISDIR(info.st_mode)) throwCannotWrite(path_, EISDIR);
+    // A rename would replace a file that is protected.
+    if (::access(path_.c_str(), W_OK) != 0) throwCannotWrite(path_, errno);
     // Devices and pipes are opened directly, because a rename would replace them by a file.
     if (!S_ISREG(info.st_mode)) {
       temporary_ = path_;

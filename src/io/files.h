@@ -36,13 +36,14 @@ class PathRules {
                                 const std::string& where) const;
 
   // Resolves a name in a model, which may have been written on another system: backslashes are
-  // separators. If there is no such file, one whose name differs in capitals is taken, or one of
-  // that name that lies beside the model; such replacements are counted in `warnings`.
+  // separators. If there is no such file, or it is not permitted, one whose name differs in
+  // capitals is taken, or one of that name that lies beside the model; such replacements are
+  // counted in `warnings`.
   std::filesystem::path find(std::string text, const std::filesystem::path& folder,
                              const std::string& where, Warnings& warnings) const;
 
  private:
-  bool inside(const std::filesystem::path& path) const;
+  bool permits(const std::filesystem::path& path) const;  // of a path without links
 
   std::filesystem::path sceneFolder_, dataFolder_;
   bool allowOutside_;
@@ -98,11 +99,16 @@ inline std::span<const std::uint8_t> asBytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+// Returns the file that a symbolic link leads to, which need not exist; of other files `path`.
+std::string linkTarget(const std::string& path);
+
 // A temporary name beside `path`. commit() renames it to `path`; without commit the destructor
-// removes it, so that an error or an interruption leaves nothing half-written.
+// removes it, so that an error or an interruption leaves nothing half-written. A symbolic link
+// stays and its target is what is written.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::string path);  // throws Error(io) when the folder is not writable
+  // Throws Error(io) when the folder, or a file that is there, is not writable.
+  explicit AtomicFile(std::string path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

@@ -23,6 +23,9 @@
 namespace whit {
 
 inline constexpr float kModelGray = 0.6f;  // albedo of surfaces without a material
+// Colors of vertices are codes up to 255 where one is larger. Rounding and emission make some that
+// are a little above 1.
+inline constexpr float kLargestColor = 2;
 
 // Names of a material's members that a scene file gives itself or that follow from those, in place
 // of what a model's own file says.

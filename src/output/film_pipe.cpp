@@ -27,17 +27,17 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
   if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
 
   // All players show H.264 in yuv420p. They take its colors by BT.709, some of them only if the
-  // file says so; by itself ffmpeg would convert by BT.601 and say nothing.
+  // file says so; by itself ffmpeg would convert by BT.601 and say nothing. Without -xerror it
+  // takes a full disk for success.
   std::vector<std::string> words =
-      split(formatted("ffmpeg -v error -f rawvideo -pix_fmt rgb0 -s %dx%d -r %.17g -i - "
+      split(formatted("ffmpeg -v error -xerror -f rawvideo -pix_fmt rgb0 -s %dx%d -r %.17g -i - "
                       "-vf scale=out_color_matrix=bt709:out_range=tv -colorspace bt709 "
                       "-color_primaries bt709 -color_trc iec61966-2-1 -color_range tv -c:v libx264 "
                       "-crf 18 -pix_fmt yuv420p -movflags +faststart -f mp4 -y",
                       width, height, fps),
             ' ');
-  // A leading dash would make the path an option, and a colon in its first part a protocol.
-  const std::string temporary = file_->temporaryPath();
-  words.push_back((temporary.starts_with('/') ? "" : "./") + temporary);
+  // Otherwise a leading dash would make the path an option, and a colon in it a protocol.
+  words.push_back("file:" + file_->temporaryPath());
   std::vector<char*> arguments(words.size() + 1);  // null is the last
   std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
 

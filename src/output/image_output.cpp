@@ -81,13 +81,16 @@ void requireWritable(const std::string& path, const std::vector<std::string>& ex
   }
   if (std::filesystem::is_other(path, error)) return;  // a device or a pipe
 
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const std::string place = folder.empty() ? "." : folder.string();
+  const std::filesystem::path file(linkTarget(path));
+  const std::string place = file.has_parent_path() ? file.parent_path().string() : ".";
   if (!std::filesystem::is_directory(place, error)) {
     throwIo("cannot write '" + path + "': there is no folder '" + place + "'");
   }
   if (access(place.c_str(), W_OK) != 0) {
     throwIo("cannot write '" + path + "': the folder '" + place + "' is write-protected");
+  }
+  if (std::filesystem::exists(file, error) && access(file.c_str(), W_OK) != 0) {
+    throwIo("cannot write '" + path + "': it is write-protected");
   }
 }
 

@@ -89,7 +89,10 @@ TEST_F(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
   for (const auto& [program, said] :
        {std::pair{"echo no such codec >&2; exit 1", "no such codec"},  // ffmpeg ends at once
         {"cat >/dev/null; echo the disk is full >&2; exit 3", "the disk is full"},
-        {"kill -9 $$", "film.mp4': ffmpeg "}}) {
+        {"kill -9 $$", "film.mp4': ffmpeg "},
+        // The real program may write 512 bytes, as on a full disk.
+        {"trap '' XFSZ; ulimit -f 1; PATH=/usr/bin:/bin exec ffmpeg \"$@\"",
+         "film.mp4': ffmpeg "}}) {
     saveProgram(program);
     // The frames are more than the kernel keeps for a program that does not read them.
     const Outcome outcome =
@@ -141,7 +144,7 @@ class Film : public TurntableCommand {
 TEST_F(Film, FramesAreThoseOfTheirOwnFiles) {
   // Writes the raw frames, and what it was called with.
   const std::string called = programs_ / "words";
-  saveProgram("for last; do :; done; echo \"$*\" >" + called + "; cat >\"$last\"");
+  saveProgram("for last; do :; done; echo \"$*\" >" + called + "; cat >\"${last#file:}\"");
 
   const Outcome outcome =
       run("render tiny.json --frames 1..3 --fps 4 -o film.mp4 -o f#.png", withPrograms());
@@ -193,9 +196,15 @@ TEST_F(Film, ColorsAreThoseOfBt709) {
       picture.push_back(static_cast<std::uint8_t>(code));
     }
   }
-  FilmPipe pipe(folder_ / "film.mp4", kSide, kSide, 10);
+  // The path is relative, and a part of it looks like a protocol.
+  fs::create_directory(folder_ / "10:30");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  FilmPipe pipe("10:30/film.mp4", kSide, kSide, 10);
   pipe.add(picture);
   pipe.finish();
+  fs::current_path(before);
+  fs::rename(folder_ / "10:30/film.mp4", folder_ / "film.mp4");
 
   const Json stream = probed("color_range,color_space,color_transfer,color_primaries");
   EXPECT_EQ(stream["color_range"], "tv");

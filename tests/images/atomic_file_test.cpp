@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <functional>
 
@@ -90,6 +91,29 @@ TEST_F(AtomicFileTest, LinksAreFollowed) {
   writeTextFile(path("link.txt"), "new");
   EXPECT_TRUE(fs::is_symlink(path("link.txt")));
   EXPECT_EQ(text("target.txt"), "new");
+}
+
+TEST_F(AtomicFileTest, LinksToFilesThatAreNotThereAreFollowed) {
+  fs::create_directory(path("sub"));
+  fs::create_symlink("sub/next.txt", path("link.txt"));
+  fs::create_symlink("target.txt", path("sub/next.txt"));
+  writeTextFile(path("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(text("sub/target.txt"), "new");
+}
+
+// A rename needs no permission to write to the file.
+TEST_F(AtomicFileTest, ProtectedFilesStay) {
+  writeTextFile(path("a.txt"), "old");
+  fs::permissions(path("a.txt"), fs::perms(0444));
+  fs::permissions(folder_, fs::perms::all);
+  const auto write = [&] {
+    constexpr uid_t kNobody = 65534;  // root may write to all files
+    if (geteuid() == 0 && setuid(kNobody) != 0) _exit(1);
+    _exit(static_cast<int>(statusOf([&] { writeTextFile(path("a.txt"), "new"); })));
+  };
+  EXPECT_EXIT(write(), testing::ExitedWithCode(static_cast<int>(ExitStatus::io)), "");
+  EXPECT_EQ(text("a.txt"), "old");
 }
 
 TEST_F(AtomicFileTest, DevicesAreWrittenStraight) {

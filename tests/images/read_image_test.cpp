@@ -1,6 +1,8 @@
 // Reading 8-bit and Radiance files: every sample's pixels are known from how its bytes were made.
+#include "core/display.h"
 #include "image_samples.h"
 #include "io/files.h"
+#include "io/image/image_layers.h"
 #include "source_files.h"
 
 namespace whit {
@@ -109,6 +111,19 @@ TEST_F(ReadImage, ReadImageDecodesSrgb) {
 TEST_F(ReadImage, GrayIsSpreadAndMultipliedByAlpha) {
   const Image image = readImage(save("a.png", png(1, 1, 8, 4, {0, 255, 9})), limits_);
   EXPECT_EQ(image.at(0, 0), Rgb(9.0f / 255));
+}
+
+// Pictures that are compared keep all bits of a PNG, of which textures have 8.
+TEST_F(ReadImage, PicturesKeepSixteenBits) {
+  const Image gray =
+      readImage(save("g.png", png(2, 1, 16, 0, {0, 0x12, 0x34, 0x12, 0x35})), limits_);
+  EXPECT_EQ(gray.at(0, 0), Rgb(static_cast<float>(srgbToLinear(0x1234 / 65535.0))));
+  EXPECT_EQ(gray.at(1, 0), Rgb(static_cast<float>(srgbToLinear(0x1235 / 65535.0))));
+
+  const std::string clear = save("a.png", png(1, 1, 16, 4, {0, 255, 255, 0x80, 1}));
+  const auto alpha = static_cast<float>(0x8001 / 65535.0);
+  EXPECT_EQ(readImage(clear, limits_).at(0, 0), Rgb(alpha));
+  EXPECT_EQ(readLayers(clear, limits_).at(0).floats(), std::vector{alpha});
 }
 
 TEST_F(ReadImage, SideAndByteLimitsHold) {

@@ -103,6 +103,23 @@ TEST_F(Assimp, TextOfStlIsReadAsWell) {
   expectNoWarnings();
 }
 
+// They are from 0 to 1, or codes up to 255: 188 is 0.502886 in linear light.
+TEST_F(Assimp, ColorsOfOff) {
+  for (const std::string color : {"0.737255 0 1 1", "188 0 255 255"}) {
+    std::string text = "COFF\n3 1 0\n";
+    for (const std::string corner : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += corner + color + "\n";
+    const Rgb read = trianglesOf(loadBytes("off", text + "3 0 1 2\n")).at(0).colors[0];
+    expectNearInFloat(Vec3d(read), {0.502886, 0, 1}, 1e-5);
+  }
+}
+
+// The library crashes where a mesh has no vertices.
+TEST_F(Assimp, EmptySolidsOfStlAreLeftOut) {
+  const std::string solid = corpusFile("stl/box.stl"), empty = "solid none\nendsolid none\n";
+  EXPECT_EQ(trianglesOf(loadBytes("stl", solid + empty)).size(), 12u);
+  expectErrorsOf("m.stl", {{empty, "*it has no faces"}});
+}
+
 // Bits 0 to 4 are blue, then green and red: codes of 5 bits on a screen.
 TEST_F(Assimp, ColorBitsOfStl) {
   const SceneDescription scene = loadTetra("stl");
@@ -170,11 +187,19 @@ TEST_F(Assimp, OffColladaFbxAnd3ds) {
   expectErrorsOf("m.dae", {{tetra("dae"), "*/up*"}});
 }
 
-// The picture beside the model is its base color, which replaces the color of the file.
+// The picture beside the model is its base color, which replaces the color of the file. Files of
+// 3ds Max have a third texture coordinate.
 TEST_F(Assimp, TexturesLieBesideTheModel) {
   save("t.png", corpusFile("png/rgb.png"));
-  for (const std::string extension : {"dae", "fbx"}) {
-    const SceneDescription scene = loadTetra(extension);
+  std::string three =
+      replaced(tetra("dae"), "8\">0 0 1 0 0 1 1 1<", "12\">0 0 9 1 0 9 0 1 9 1 1 9<");
+  three = replaced(three, "stride=\"2\"", "stride=\"3\"");
+  three = replaced(three, "<param name=\"T\" type=\"float\"/>",
+                   "<param name=\"T\" type=\"float\"/><param name=\"P\" type=\"float\"/>");
+
+  for (const auto& [extension, text] :
+       {std::pair{"dae", tetra("dae")}, {"dae", three}, {"fbx", tetra("fbx")}}) {
+    const SceneDescription scene = loadBytes(extension, text);
 
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.name, "red");

@@ -209,6 +209,17 @@ TEST_F(Mtl, NamesOfOtherSystems) {
   expectWarned("file taken whose name or folder differs from the one in the model", 5);
 }
 
+// A file that the model may not name leaves the one beside the model.
+TEST_F(Mtl, NamesThatLeaveTheFolder) {
+  saveImage("../c.tga", {"ff0000"});
+  saveImage("c.tga", {"00ff00"});
+  for (const std::string& name : {std::string("../c.tga"), folder_ + "/c.tga"}) {
+    const SceneDescription scene = loadWith("map_Kd " + name + "\n");
+    ASSERT_NE(scene.materials[0].diffuseMap, kNoTexture) << name;
+    EXPECT_EQ(colorsOf(scene, scene.materials[0].diffuseMap)[0], Rgb(0, 1, 0));
+  }
+}
+
 TEST_F(Mtl, MapsByTheirKeys) {
   saveImage("c.tga", {"ff0000"});
   saveImage("n.tga", {"8080ff"});

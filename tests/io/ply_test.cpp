@@ -195,6 +195,22 @@ TEST_F(Ply, ColorsOfFaces) {
   expectNoWarnings();
 }
 
+TEST_F(Ply, ColorsOfFacesAndOfVertices) {
+  const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const auto colorOf = [&](const std::string& last) {
+    const std::string vertices = "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 " + last + "\n";
+    const SceneDescription scene =
+        loadPly(ascii(replaced(kTriangleHeader, "z\n", "z\n" + colors) + colors) + vertices +
+                "3 0 1 2 0 255 0\n");
+    return meshOf(scene).colors[meshOf(scene).triangles[0][2]];
+  };
+
+  EXPECT_EQ(colorOf("9 9 9"), Rgb(0, 1, 0)) << "that of the face, as all vertices have one gray";
+  expectNoWarnings();
+  EXPECT_EQ(colorOf("255 0 0"), Rgb(1, 0, 0));
+  expectWarned("colors of faces left out, because vertices have colors");
+}
+
 TEST_F(Ply, PicturesByCoordinatesOfVertices) {
   saveImage("t.tga", {"ff0000"});
   const SceneDescription scene = loadPly(
@@ -261,6 +277,8 @@ TEST_F(Ply, WhatIsLeftOutIsCounted) {
            "to draw: no face that can be built (1 from m.ply)"},
           {ascii(std::string("comment TextureFile none.png\n") + kTriangleHeader) + kTriangle,
            "1; texture left out (1 from *"},
+          {ascii(kTriangleHeader) + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2 9 1 1 1\n",
+           "1; values that no property of the header names left out (2 from m.ply:11)"},
           {ascii(vertex) + "0 0 0\n", "0; model with nothing to draw: no faces (1 from m.ply)"},
           {replaced(ascii(vertex), "vertex 1", "vertex 0"),
            "0; model with nothing to draw: no vertices (1 from m.ply)"},

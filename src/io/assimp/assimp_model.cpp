@@ -15,6 +15,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -98,8 +99,18 @@ std::uint32_t leaveOutBadFaces(aiMesh& mesh) {
   aiFace* const end = mesh.mFaces + mesh.mNumFaces;
   const auto left = static_cast<std::uint32_t>(end - std::remove_if(mesh.mFaces, end, isBad));
   mesh.mNumFaces -= left;
-  if (mesh.mNumFaces == 0) mesh.mNumVertices = 0;  // or they would be taken for triangles in order
   return left;
+}
+
+// Makes a mesh without faces a point. The library leaves points out, but crashes where a mesh has
+// no vertices.
+void makePoint(aiMesh& mesh) {
+  mesh.mVertices = new aiVector3D[1];
+  mesh.mFaces = new aiFace[1];
+  mesh.mFaces[0].mIndices = new unsigned[1]{0};
+  mesh.mFaces[0].mNumIndices = 1;
+  mesh.mNumVertices = mesh.mNumFaces = 1;
+  mesh.mPrimitiveTypes = aiPrimitiveType_POINT;
 }
 
 // JSON has neither numbers that are not finite nor text that is not UTF-8. Positions that are not
@@ -121,17 +132,19 @@ void makePrintable(aiNode& node) {
   for (unsigned i = 0; i < node.mNumChildren; ++i) makePrintable(*node.mChildren[i]);
 }
 
-// These formats mean colors of vertices as the screen shows them, and glTF has linear ones.
+// These formats mean colors of vertices as the screen shows them, and glTF has linear ones. Files
+// of OFF may have codes up to 255.
 void makeLinear(aiMesh& mesh) {
-  const auto linear = [](float x) {
-    return x > 0 ? static_cast<float>(srgbToLinear(std::min(double{x}, 1.0))) : 0.0f;
-  };
   if (!mesh.mColors[0]) return;
+  const std::span<aiColor4D> colors(mesh.mColors[0], mesh.mNumVertices);
+  float largest = 0;
+  for (const aiColor4D& c : colors) largest = std::max({largest, c.r, c.g, c.b});
 
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    aiColor4D& color = mesh.mColors[0][i];
-    color = {linear(color.r), linear(color.g), linear(color.b), color.a};
-  }
+  const double white = largest > kLargestColor ? 255 : 1;
+  const auto linear = [white](float x) {
+    return x > 0 ? static_cast<float>(srgbToLinear(std::min(x / white, 1.0))) : 0.0f;
+  };
+  for (aiColor4D& c : colors) c = {linear(c.r), linear(c.g), linear(c.b), c.a};
 }
 
 // Replaces a member of the material.
@@ -311,11 +324,20 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
     fail(aiGetErrorString());
     return;
   }
+
   std::uint32_t badFaces = 0;
+  bool hasFaces = false;
   for (unsigned i = 0; i < imported->mNumMeshes; ++i) {
     aiMesh& mesh = *imported->mMeshes[i];
     badFaces += leaveOutBadFaces(mesh);
+    hasFaces = hasFaces || mesh.mNumFaces > 0;
+    if (mesh.mNumFaces == 0) makePoint(mesh);
     if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
+    std::ranges::fill(mesh.mNumUVComponents, 2u);  // glTF has no more; 3ds Max writes three
+  }
+  if (!hasFaces) {
+    fail("it has no faces");
+    return;
   }
 
   // Normals are smoothed before the polygons are split, so that each polygon counts once and not

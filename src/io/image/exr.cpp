@@ -34,6 +34,7 @@
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
+#include "io/image/texture_from_image.h"
 #include "scene/members.h"
 
 namespace whit {
@@ -489,14 +490,12 @@ bool hasOtherPrimaries(const Imf::Header& header) {
 
 // Returns the alpha of an image in another format, if it has some.
 std::vector<ImageLayer> alphaLayer(const std::string& path, const ImageLimits& limits) {
-  Warnings unused;
-  const RawImage raw = readRawImage(path, limits, unused);
-  if (raw.linear || raw.channels % 2 != 0) return {};
+  const RawImage raw = decodeAllBits(path, limits);
+  if (raw.channels % 2 != 0) return {};
 
   ImageLayer alpha{"A", false, {}};
-  const auto channels = static_cast<std::size_t>(raw.channels);
-  for (std::size_t i = channels - 1; i < raw.codes.size(); i += channels) {
-    alpha.words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(raw.codes[i]) / 255));
+  for (const auto i : indices(raw.pixels())) {
+    alpha.words.push_back(std::bit_cast<std::uint32_t>(valueAt(raw, i, 3)));
   }
   return {alpha};
 }

@@ -28,6 +28,13 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 using ImageDecoder = RawImage(const std::string& path, FileBytes file, const ImageLimits& limits);
 ImageDecoder decodePng, decodeJpeg, decodeWebp, decodeBmp, decodeHdr, decodeTga;
 
+// PNGs of 16 bits, which decodePng() rounds to 8. decodePng16() keeps them, as linear light that is
+// premultiplied by alpha.
+bool isPng16(FileBytes file);
+ImageDecoder decodePng16;
+// Decodes a file that is no EXR, with all bits of a PNG.
+RawImage decodeAllBits(const std::string& path, const ImageLimits& limits);
+
 // A warning of images with other primaries than Rec. 709, whose numbers are taken as they are.
 inline constexpr char kOtherPrimaries[] =
     "primaries of an image left out: its values are taken as those of Rec. 709";

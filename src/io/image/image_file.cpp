@@ -68,12 +68,13 @@ RawImage decodeBytes(const std::string& name, FileBytes file, const ImageLimits&
       "expected a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
 }
 
-RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
+RawImage decodeOther(const std::string& path, const ImageLimits& limits, bool allBits) {
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
   // The budget counts the file only while it is decoded.
   const MemoryHold held(limits.budget, error ? 0 : size, 1, path);
   const std::string file = readFile(path, limits.bytes);
+  if (allBits && isPng16(asBytes(file))) return decodePng16(path, asBytes(file), limits);
   return decodeBytes(path, asBytes(file), limits);
 }
 
@@ -112,10 +113,14 @@ void divideByAlpha(RawImage& raw) {
 }
 
 RawImage decodeFile(const std::string& path, const ImageLimits& limits) {
-  return isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
+  return isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits, false);
 }
 
 }  // namespace
+
+RawImage decodeAllBits(const std::string& path, const ImageLimits& limits) {
+  return decodeOther(path, limits, true);
+}
 
 bool isExrFile(const std::string& path) { return readBeginning(path, 4) == "\x76\x2f\x31\x01"; }
 
@@ -189,7 +194,7 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
   if (isExrFile(path)) {
     source = decodeExr(path, false, limits);
   } else {
-    source.raw = decodeOther(path, limits);
+    source.raw = decodeAllBits(path, limits);
     source.width = source.raw.width;
     source.height = source.raw.height;
     source.window = {0, 0, source.width, source.height};

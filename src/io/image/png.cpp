@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
@@ -61,11 +63,15 @@ class PngReader {
     });
   }
 
-  // Sets the output to 8 bits for each of 1 to 4 channels.
-  void prepare() {
-    guarded([this] {
+  // Sets the output to 8 bits for each of 1 to 4 channels, or to 16 where the file has them.
+  void prepare(bool keeps16) {
+    guarded([this, keeps16] {
       png_set_expand(lib_.png);
-      png_set_scale_16(lib_.png);  // rounds, where png_set_strip_16() cuts off
+      if (keeps16) {
+        png_set_swap(lib_.png);  // PNG stores the most significant byte first
+      } else {
+        png_set_scale_16(lib_.png);  // rounds, where png_set_strip_16() cuts off
+      }
       passes_ = png_set_interlace_handling(lib_.png);
       png_read_update_info(lib_.png, lib_.info);
     });
@@ -130,13 +136,15 @@ class PngReader {
   int passes_ = 1;
 };
 
+// The image gets the bytes of its rows as codes, two for each value where a PNG of 16 bits keeps
+// them.
 RawImage decode(const std::string& path, FileBytes file, const ImageLimits& limits,
-                ImageMetadata* texts) {
+                ImageMetadata* texts, bool keeps16 = false) {
   constexpr std::uint64_t kMostFromOneByte = 1032;  // highest ratio of deflate
   PngReader reader(path, file);
   reader.readHeader();
   checkImageSize(path, reader.width(), reader.height(), 1, limits);
-  reader.prepare();
+  reader.prepare(keeps16);
 
   RawImage image =
       startImage(path, reader.width(), reader.height(), reader.channels(), false, limits);
@@ -239,6 +247,31 @@ std::string encode(const Rows& rows, const ImageMetadata& metadata) {
 
 RawImage decodePng(const std::string& path, FileBytes file, const ImageLimits& limits) {
   return decode(path, file, limits, nullptr);
+}
+
+bool isPng16(FileBytes file) {
+  constexpr std::size_t kBitsAt = 24;  // in the header's chunk, which is always the first
+  return file.size() > kBitsAt && file[1] == 'P' && file[kBitsAt] == 16;
+}
+
+RawImage decodePng16(const std::string& path, FileBytes file, const ImageLimits& limits) {
+  const RawImage raw = decode(path, file, limits, nullptr, true);
+  RawImage image = startImage(path, raw.width, raw.height, raw.channels, true, limits);
+  const std::size_t channels = raw.channels, count = image.pixels() * channels;
+  image.values.resize(count);
+
+  const auto share = [&](std::size_t i) {
+    std::uint16_t code = 0;
+    std::memcpy(&code, &raw.codes[i * sizeof code], sizeof code);
+    return code / 65535.0;
+  };
+  for (const auto i : indices(count)) {
+    const std::size_t last = i - i % channels + channels - 1;
+    const double alpha = channels % 2 == 0 ? share(last) : 1;
+    const bool isAlpha = channels % 2 == 0 && i == last;
+    image.values[i] = static_cast<float>(isAlpha ? alpha : srgbToLinear(share(i)) * alpha);
+  }
+  return image;
 }
 
 ImageMetadata readPngMetadata(const std::string& path) {

@@ -345,8 +345,8 @@ class ObjReader {
   void finishColors() {
     float largest = 0;
     for (const Rgb& color : mesh_.colors) largest = std::max(largest, maxComponent(color));
-    const float white = largest > 1 ? 255.0f : 1.0f;
-    if (white > 1) warnings_.note("vertex colors above 1 read as codes up to 255", file_);
+    const float white = largest > kLargestColor ? 255.0f : 1.0f;
+    if (white > 1) warnings_.note("vertex colors above 2 read as codes up to 255", file_);
     for (Rgb& color : mesh_.colors) {
       for (int i = 0; i < 3; ++i) {
         color[i] = static_cast<float>(srgbToLinear(double{color[i] / white}));

@@ -269,6 +269,11 @@ class PlyReader {
       const std::uint64_t count = property.countType ? listLength(property) : 1;
       for (std::uint64_t i = 0; i < count; ++i) use(property, number(*property.type));
     }
+
+    // In text each element begins a line. MeshLab writes colors of corners without a property.
+    if (!ascii_ || !lines_.hasMore()) return;
+    warnings_.add("values that no property of the header names left out", place());
+    lines_.rest();
   }
 
   double number(const PlyType& type) {
@@ -426,7 +431,8 @@ class PlyReader {
     }
   }
 
-  // Returns true if faces have colors that are shown: those of vertices come first.
+  // Returns true if faces have colors that are shown: those of vertices come first, unless all
+  // vertices have one gray, as programs write it that color faces.
   bool startFaceColors(const PlyElement& element, bool areFaces) {
     std::array<bool, kComponents + 1> has{};
     for (const PlyProperty& property : element.properties) {
@@ -439,7 +445,10 @@ class PlyReader {
     }
 
     const bool isColored = has[kR] && has[kG] && has[kB];
-    hasFaceColors_ = isColored && areFaces && mesh_.colors.empty();
+    const bool areGray = std::ranges::all_of(mesh_.colors, [&](const Rgb& color) {
+      return color == Rgb(color.x) && color == mesh_.colors[0];
+    });
+    hasFaceColors_ = isColored && areFaces && areGray;
     if (hasFaceColors_) mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
     if (has[kR] && !hasFaceColors_) {
       warnings_.add(isColored ? "colors of faces left out, because vertices have colors"
