@@ -107,7 +107,8 @@ ModelView viewOfAnimation(const SceneContext& context) {
   if (!supplies || !context.instant.moves()) return viewOf(scene);
 
   const std::optional<double> end = endOfAnimations(context);
-  return end ? viewOf(scene, *end) : viewOf(scene);
+  if (!end) return viewOf(scene);
+  return viewOf(scene, *end);
 }
 
 // Puts the camera before the others, which keep their nodes.

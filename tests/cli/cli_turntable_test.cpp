@@ -174,11 +174,6 @@ TEST_F(Film, FramesAreThoseOfTheirOwnFiles) {
   EXPECT_EQ(run("render tiny.json --frames 1..3 --fps 4 -o film.mp4", closed).status, 0);
   EXPECT_EQ(bytesOf("film.mp4"), frames);
 
-  // A folder is no protocol.
-  fs::create_directory(folder_ / "9:15");
-  EXPECT_EQ(run("render tiny.json --frames 1 -o 9:15/film.mp4", withPrograms()).status, 0);
-  EXPECT_TRUE(hasText(readFile(called), " -y ./9:15/.whit-")) << readFile(called);
-
   // A film of one image is refused.
   EXPECT_EQ(run("render tiny.json -o film.mp4", withPrograms()).status, 2);
 }
