@@ -292,9 +292,10 @@ TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
   ASSERT_EQ(warnings_.entries().size(), 1u);
   expectLike(kinds(), "*z seems to be up*");
 
-  // A flat model, one with y up that extends on both sides of z = 0, one that extends to one side
+  // Flat models, one with y up that extends on both sides of z = 0, one that extends to one side
   // only, and one around the origin stay as they are.
-  const std::string texts[] = {kTriangleObj, "v -1 0 -1\nv 1 0 1\nv 0 4 0\nf 1 2 3\n",
+  const std::string texts[] = {kTriangleObj, "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n",
+                               "v -1 0 -1\nv 1 0 1\nv 0 4 0\nf 1 2 3\n",
                                "v 0 0 0\nv 1 0 1\nv 0 1 3\nf 1 2 3\n",
                                "v -1 -1 -1\nv 1 1 1\nv -1 1 1\nf 1 2 3\n"};
   for (const std::string& text : texts) {

@@ -64,6 +64,7 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
 bool standsOnPlane(const Box& box) {
   constexpr float kOnPlane = 0.02f, kAstride = 0.25f, kLeastHeight = 0.5f;
   const Vec3f size = box.upper - box.lower;
+  if (size.y == 0) return false;  // it may as well lie on the ground
 
   return std::abs(box.lower.z) <= kOnPlane * size.z &&
          size.z >= kLeastHeight * std::max(size.x, size.y) &&
