@@ -499,7 +499,7 @@ void FindLayers(Chunk& c) {
       const VF passed = Sub(one, SmoothReflectance(job, lanes, i));
       through = Select3(transmits, UnderMirror(lanes, transmission, mirror, through), through);
       lobe = Scale3(lobe, passed);
-      below = Scale3(below, IfThenElse(transmits, passed, one));
+      below = Scale3(below, passed);
     }
 
     if (job.lobes) {
