@@ -427,7 +427,8 @@ struct DiffuseSamples {
 
 // The scalar reference is pointOf() in src/stages/lobes.h.
 template <const Lobe& kLobe>
-HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k) {
+HWY_INLINE UnitPoints PointsOf(VU path, LobeSampling sampling, uint32_t k) {
+  sampling.lattice = kLobe.lattice;
   if constexpr (kLobe.salt == 0) {
     return LobePoints(path, sampling, k);
   } else {

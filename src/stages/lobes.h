@@ -23,6 +23,7 @@ struct Lobe {
   int (*samples)(const RenderOptions&);     // number of rays for a surfel that the eye sees
   std::uint32_t firstBranch;                // first branch of the rays for childStream(); 64 follow
   std::uint32_t salt;                       // salt of the rays' lattice; 0: the path's own lattice
+  Lattice lattice;
 
   bool isSampled(const Material& material, EffectSet effects) const {
     return (material.*isOf)(effects);
@@ -35,14 +36,16 @@ inline constexpr Lobe kGlossyLobe{Effect::glossyReflection,
                                   RayKind::reflection,
                                   glossySamples,
                                   3,
-                                  0};
+                                  0,
+                                  kFacetLattice};
 inline constexpr Lobe kDiffuseLobe{Effect::indirect,
                                    &Material::diffuses,
                                    kMaterialDiffuses,
                                    RayKind::indirect,
                                    [](const RenderOptions& o) { return o.indirect; },
                                    128,
-                                   0x5851f42du};
+                                   0x5851f42du,
+                                   kLobeLattice};
 // What frosted glass transmits. The points are those of the glossy lobe, so that each facet that is
 // drawn both reflects and transmits.
 inline constexpr Lobe kFrostedLobe{Effect::glossyReflection,
@@ -51,7 +54,8 @@ inline constexpr Lobe kFrostedLobe{Effect::glossyReflection,
                                    RayKind::refraction,
                                    glossySamples,
                                    256,
-                                   0};
+                                   0,
+                                   kFacetLattice};
 inline constexpr std::array kLobes{kGlossyLobe, kFrostedLobe, kDiffuseLobe};
 
 // Where a surface behind the first hit has both lobes, one of them is followed, or the rays would
@@ -79,8 +83,9 @@ inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
 }
 
 // Sample k of the surfel that `path` has led to.
-constexpr UnitPoint pointOf(const Lobe& lobe, std::uint32_t path, const LobeSampling& sampling,
+constexpr UnitPoint pointOf(const Lobe& lobe, std::uint32_t path, LobeSampling sampling,
                             std::uint32_t k) {
+  sampling.lattice = lobe.lattice;
   return lobe.salt == 0 ? lobePoint(path, sampling, k) : saltedPoint(path, sampling, lobe.salt, k);
 }
 
