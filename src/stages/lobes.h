@@ -72,14 +72,21 @@ constexpr bool samplesLobes(EffectSet effects) {
   return std::ranges::any_of(kLobes, [&](const Lobe& lobe) { return effects.has(lobe.effect); });
 }
 
-// True if --adaptive decides how many samples each pixel gets. It does not where lobes are sampled:
+// True if frames with these effects sample what arrives at surfaces: by lobes, of lights with a
+// radius or of ambient light.
+constexpr bool samplesLight(EffectSet effects) {
+  return samplesLobes(effects) || effects.has(Effect::softShadows) ||
+         effects.has(Effect::ambientOcclusion);
+}
+
+// True if --adaptive decides how many samples each pixel gets. It does not where light is sampled:
 // pixels whose first samples agree because all of them missed the light would end there, and the
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
   const EffectSet used = effects.without(options.disable).without(optionalEffectsOff(options));
   const ChannelSet kept = keptChannels(options);
   const bool overAll = kept.has(Channel::alpha) || kept.has(Channel::error);  // need all samples
-  return options.adaptive && options.spp > 1 && !samplesLobes(used) && !overAll;
+  return options.adaptive && options.spp > 1 && !samplesLight(used) && !overAll;
 }
 
 // Sample k of the surfel that `path` has led to.
