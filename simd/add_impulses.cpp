@@ -427,7 +427,8 @@ struct DiffuseSamples {
 
 // The scalar reference is pointOf() in src/stages/lobes.h.
 template <const Lobe& kLobe>
-HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k) {
+HWY_INLINE UnitPoints PointsOf(VU path, LobeSampling sampling, uint32_t k) {
+  sampling.lattice = kLobe.lattice;
   if constexpr (kLobe.salt == 0) {
     return LobePoints(path, sampling, k);
   } else {
@@ -499,7 +500,7 @@ void FindLayers(Chunk& c) {
       const VF passed = Sub(one, SmoothReflectance(job, lanes, i));
       through = Select3(transmits, UnderMirror(lanes, transmission, mirror, through), through);
       lobe = Scale3(lobe, passed);
-      below = Scale3(below, IfThenElse(transmits, passed, one));
+      below = Scale3(below, passed);
     }
 
     if (job.lobes) {

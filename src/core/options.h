@@ -190,7 +190,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.spp},
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
-                      "one elsewhere; with --glossy or --indirect all pixels get all samples"},
+                      "one elsewhere; with --glossy, --indirect, --ambient-samples or "
+                      "--light-samples all pixels get all samples"},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "

@@ -248,12 +248,11 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
   surfel.lobe = albedo * passed;
   surfel.underCoat = underCoat(material, effects, surfel);
 
-  const bool transmits = crossing.dielectric && material.hasTransmission();
-  if (transmits) {
+  if (crossing.dielectric && material.hasTransmission()) {
     through = underMirror(material, RgbD(material.transmission) * surfel.transmission, mirror);
   }
-  surfel.diffuse = underMirror(material, surfel.diffuse, mirror, through) * (RgbD(1.0) - albedo) *
-                   (transmits ? passed : 1);
+  surfel.diffuse =
+      underMirror(material, surfel.diffuse, mirror, through) * (RgbD(1.0) - albedo) * passed;
 }
 
 namespace {

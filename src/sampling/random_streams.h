@@ -51,6 +51,10 @@ struct Lattice {
 // The lattice of lobes is that of the plastic number (Roberts 2018, "The unreasonable effectiveness
 // of quasirandom sequences").
 inline constexpr Lattice kLobeLattice{3242174889u, 2447445414u};
+// The facets of a glossy lobe need another one: what they reflect is missing for the diffuse color,
+// and points of one lattice would pair the same facets with the same lights in every sample of a
+// pixel. It is that of the supergolden ratio, the root of x^3 = x^2 + 1, which is nearly as even.
+inline constexpr Lattice kFacetLattice{2930575603u, 1999613215u};
 // A lens needs another one, or the place on the lens would decide what a lobe of the first surface
 // draws: the fractions of the square roots of 3 and 7. By itself, and with the samples of a pixel,
 // it is as even as the other.

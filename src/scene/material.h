@@ -205,12 +205,14 @@ struct Material {
     return (effects.has(Effect::glossyReflection) && hasGlossyReflection()) ||
            hasFrostedInterface(effects);
   }
-  // Mirror, lobe or transmission may leave less light than those below them ask for.
+  // Mirror, lobe or transmission may leave less light than those below them ask for, and so may the
+  // interface of glass that a sheet lies on.
   bool isLayered(EffectSet effects) const {
     const float most = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
     const float color = maxComponent(diffuse);
     const bool limits = most > 0 && (coat || most + color > 1);
-    return dimsBelow(effects) || (color > 0 && (hasTransmission() || limits));
+    const bool onGlass = isPartlyThere() && effects.has(Effect::mirror);
+    return dimsBelow(effects) || (color > 0 && (hasTransmission() || onGlass || limits));
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }

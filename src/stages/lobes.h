@@ -23,6 +23,7 @@ struct Lobe {
   int (*samples)(const RenderOptions&);     // number of rays for a surfel that the eye sees
   std::uint32_t firstBranch;                // first branch of the rays for childStream(); 64 follow
   std::uint32_t salt;                       // salt of the rays' lattice; 0: the path's own lattice
+  Lattice lattice;
 
   bool isSampled(const Material& material, EffectSet effects) const {
     return (material.*isOf)(effects);
@@ -35,14 +36,16 @@ inline constexpr Lobe kGlossyLobe{Effect::glossyReflection,
                                   RayKind::reflection,
                                   glossySamples,
                                   3,
-                                  0};
+                                  0,
+                                  kFacetLattice};
 inline constexpr Lobe kDiffuseLobe{Effect::indirect,
                                    &Material::diffuses,
                                    kMaterialDiffuses,
                                    RayKind::indirect,
                                    [](const RenderOptions& o) { return o.indirect; },
                                    128,
-                                   0x5851f42du};
+                                   0x5851f42du,
+                                   kLobeLattice};
 // What frosted glass transmits. The points are those of the glossy lobe, so that each facet that is
 // drawn both reflects and transmits.
 inline constexpr Lobe kFrostedLobe{Effect::glossyReflection,
@@ -51,7 +54,8 @@ inline constexpr Lobe kFrostedLobe{Effect::glossyReflection,
                                    RayKind::refraction,
                                    glossySamples,
                                    256,
-                                   0};
+                                   0,
+                                   kFacetLattice};
 inline constexpr std::array kLobes{kGlossyLobe, kFrostedLobe, kDiffuseLobe};
 
 // Where a surface behind the first hit has both lobes, one of them is followed, or the rays would
@@ -68,19 +72,27 @@ constexpr bool samplesLobes(EffectSet effects) {
   return std::ranges::any_of(kLobes, [&](const Lobe& lobe) { return effects.has(lobe.effect); });
 }
 
-// True if --adaptive decides how many samples each pixel gets. It does not where lobes are sampled:
+// True if frames with these effects sample what arrives at surfaces: by lobes, of lights with a
+// radius or of ambient light.
+constexpr bool samplesLight(EffectSet effects) {
+  return samplesLobes(effects) || effects.has(Effect::softShadows) ||
+         effects.has(Effect::ambientOcclusion);
+}
+
+// True if --adaptive decides how many samples each pixel gets. It does not where light is sampled:
 // pixels whose first samples agree because all of them missed the light would end there, and the
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
   const EffectSet used = effects.without(options.disable).without(optionalEffectsOff(options));
   const ChannelSet kept = keptChannels(options);
   const bool overAll = kept.has(Channel::alpha) || kept.has(Channel::error);  // need all samples
-  return options.adaptive && options.spp > 1 && !samplesLobes(used) && !overAll;
+  return options.adaptive && options.spp > 1 && !samplesLight(used) && !overAll;
 }
 
 // Sample k of the surfel that `path` has led to.
-constexpr UnitPoint pointOf(const Lobe& lobe, std::uint32_t path, const LobeSampling& sampling,
+constexpr UnitPoint pointOf(const Lobe& lobe, std::uint32_t path, LobeSampling sampling,
                             std::uint32_t k) {
+  sampling.lattice = lobe.lattice;
   return lobe.salt == 0 ? lobePoint(path, sampling, k) : saltedPoint(path, sampling, lobe.salt, k);
 }
 

@@ -316,7 +316,7 @@ class Paths final : public Tracer {
     const Material& material = surface.material;
     const double cosine = std::clamp(dot(surface.toViewer, surface.normal), 0.0, 1.0);
     const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
-    if (!material.transmits()) return underCoat(material.diffuse, coat);
+    if (!material.passesLight()) return underCoat(material.diffuse, coat);
 
     const double n1 = before.current().ior, n2 = behind.current().ior;
     const double interface = surface.roughInterface ? 0 : interfaceReflectance(n1, n2, cosine);

@@ -260,23 +260,29 @@ TEST(PathNumbers, PointsOfALobeAreEvenlySpread) {
   }
 }
 
-// Where a sample passes the lens says nothing about the direction that its first surface draws:
-// each half of the lens sees both halves of a lobe, whatever the shifts of the pixel's two
-// lattices.
-TEST(PathNumbers, LensAndLobeAreDrawnIndependently) {
+// Where a sample passes the lens says nothing about the directions that its first surface draws,
+// nor does one lobe about the other: each half of the one sees both halves of the other, whatever
+// the shifts of the pixel's lattices.
+TEST(PathNumbers, LensAndLobesAreDrawnIndependently) {
   constexpr std::uint32_t kSamples = 1024;
   constexpr double kTolerance = 0.05;  // three standard deviations of random points
 
   for (const int count : {1, 2, 4}) {
     for (int x = 0; x < 20; ++x) {
-      std::uint32_t agree = 0;
+      std::array<std::uint32_t, 3> agree{};
       for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
         const std::uint32_t path = streamOfPixel(packedPixel(x, 3), sample);
         const UnitPoint lens = saltedPoint(path, lensSampling(sample), kLensSalt, 0);
-        const UnitPoint lobe = lobePoint(path, lobeSampling(0, count, sample), 0);
-        agree += (lens.u < 0.5f) == (lobe.u < 0.5f);
+        const LobeSampling sampling = lobeSampling(0, count, sample);
+        const UnitPoint glossy = whit::pointOf(kGlossyLobe, path, sampling, 0);
+        const UnitPoint diffuse = whit::pointOf(kDiffuseLobe, path, sampling, 0);
+        agree[0] += (lens.u < 0.5f) == (glossy.u < 0.5f);
+        agree[1] += (lens.u < 0.5f) == (diffuse.u < 0.5f);
+        agree[2] += (glossy.u < 0.5f) == (diffuse.u < 0.5f);
       }
-      EXPECT_NEAR(agree / double{kSamples}, 0.5, kTolerance) << count << " samples, pixel " << x;
+      for (const std::uint32_t times : agree) {
+        EXPECT_NEAR(times / double{kSamples}, 0.5, kTolerance) << count << " samples, pixel " << x;
+      }
     }
   }
 }

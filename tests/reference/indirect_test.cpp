@@ -356,6 +356,25 @@ TEST(IndirectScenes, LightOfALampComesFromWhatItShinesOn) {
   }
 }
 
+// Behind the first hit one of two lobes is followed for both, so that in the mean each counts once.
+TEST(LobeChoice, CountsEachLobeOnceInTheMean) {
+  Material m = diffuseMaterial(0.5f);
+  m.specular = Rgb(0.3f);
+  Surfel s = levelSurfel(0.2, 0.3, {0, 0, 1});
+  s.diffuse = {0.5, 0.2, 0.1};
+
+  for (const double share : {0.02, 0.3, 0.9}) {
+    s.lobe = {0.1, share, 0.2};
+    for (const Lobe& lobe : {kGlossyLobe, kDiffuseLobe}) {
+      const SampleMean mean = meanOf(100000, [&](auto path) {
+        return factorOfLobe(lobe, m, EffectSet::all(), s, 1, mixed(path));
+      });
+      EXPECT_NEAR(mean.value(), 1, 3 * mean.error()) << share;
+      EXPECT_LT(mean.error(), 0.01);
+    }
+  }
+}
+
 // An impulse below the threshold of roulette is traced with the probability of its contribution,
 // and then weighs as much more.
 TEST(Roulette, KeepsTheMeanAndTracesLess) {

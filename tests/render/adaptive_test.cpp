@@ -99,19 +99,27 @@ TEST(AdaptiveDisplay, EncodesEveryPixel) {
 }
 
 // Pixels whose first samples agree because none of them hits the light must not end there. Where
-// lobes are sampled, all pixels get all samples, in packets and in the reference.
-TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
-  for (const bool glossy : {false, true}) {
-    const Scene scene = load(glossy ? "glossy" : "cornell");
+// light is sampled, all pixels get all samples, in packets and in the reference.
+TEST(AdaptiveError, SampledLightIsNotEndedEarly) {
+  struct Case {
+    const char* scene;
+    int RenderOptions::*samples;
+    int number;
+  };
+  for (const Case& c : {Case{"glossy", &RenderOptions::glossy, 1},
+                        {"cornell", &RenderOptions::indirect, 1},
+                        {"cornell", &RenderOptions::ambientSamples, 1},
+                        {"matte", &RenderOptions::lightSamples, 2}}) {
+    const Scene scene = load(c.scene);
     RenderOptions all = withSamples(kProbeSamples + 2, false);
     all.size = ImageSize{24, 18};
-    all.glossy = glossy ? 1 : 0;
-    all.indirect = 1 - all.glossy;
+    all.*c.samples = c.number;
 
     RenderOptions adaptive = all;
     adaptive.adaptive = true;
     for (const bool packets : {true, false}) {
-      EXPECT_EQ(firstDifference(render(scene, adaptive, packets), render(scene, all, packets)), "");
+      EXPECT_EQ(firstDifference(render(scene, adaptive, packets), render(scene, all, packets)), "")
+          << c.scene;
     }
   }
 }

@@ -156,6 +156,22 @@ TEST(Layers, AddUpToAllLightAndNoMore) {
   }
 }
 
+// White paint that covers a part of a face of glass. The glass reflects through the paint, and what
+// it lets pass is shared by the paint and the sky behind the glass.
+TEST(Layers, ASheetOnGlassGetsWhatTheGlassDoesNotReflect) {
+  Material paint = diffuseMaterial(1);
+  for (const float coverage : {0.3f, 0.9f}) {
+    paint.coverage = coverage;
+    for (const double cosine : kCosines) {
+      SceneBuilder builder = floorOf(paint, cosine);
+      builder.add(floorAt(0, 100, builder.add(glassMaterial(1.5f))));
+      builder.sky(1);
+      builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+      expectMeans(builder.build(), 1, 1e-6);
+    }
+  }
+}
+
 // Only a lamp: from the side, so that neither the view nor the lamp's mirror image is special.
 std::array<double, 2> inLampLight(const GltfMaterial& material, double cosine) {
   SceneBuilder builder = floorOf(shadedAs(material, {}), cosine);
