@@ -374,6 +374,23 @@ mutations() {
 
   testedBy viewer_test 'Viewer.AScenePaused*'
   plant command-time-rounded viewer/session/view_files.cpp '" --time %.17g"' '" --time %.3g"'
+
+  testedBy io_test 'GltfMotion.*:Mtl.*:Ply.*:ScenePaths.*'
+  plant length-of-last-sampler src/io/gltf/nodes.cpp \
+    'last = std::max(last, most[0].numberOr(0));' 'last = most[0].numberOr(0);'
+  plant mtl-glass-of-vacuum src/io/obj/mtl_reader.cpp 'numberOr("ni", m.ior)' 'numberOr("ni", 1)'
+  plant ply-picture-behind-the-last src/io/ply/ply_model.cpp \
+    'face.picture < static_cast<double>(pictures.size())' \
+    'face.picture <= static_cast<double>(pictures.size())'
+  plant warning-swaps-files src/io/files.cpp \
+    'fallback.string() + " for " + excerpt(text)' 'excerpt(text) + " for " + fallback.string()'
+  plant shipped-before-variable src/io/files.cpp \
+    'for (const fs::path& folder : folders) {
+    fs::path candidate' 'for (const fs::path& folder : std::vector(folders.rbegin(), folders.rend())) {
+    fs::path candidate'
+
+  testedBy images_test 'ReadTga.*'
+  plant tga-palette-of-15-bits src/io/image/plain_formats.cpp '(entryBits + 7) / 8' 'entryBits / 8'
 }
 
 mode=run
