@@ -391,6 +391,19 @@ mutations() {
 
   testedBy images_test 'ReadTga.*'
   plant tga-palette-of-15-bits src/io/image/plain_formats.cpp '(entryBits + 7) / 8' 'entryBits / 8'
+
+  testedBy cli_test 'DeadEnds.*:BudgetCommands.*:TurntableCommand.*:Images.*:Explain.*:AbEffects.*'
+  plant serve-ignores-camera viewer/serve/serve_command.cpp \
+    'common.given.contains("camera") || common.ground' 'common.ground'
+  plant receipt-loses-a-word src/cli/render.cpp \
+    "isValue = isLeftOut && word.find('=') == std::string::npos;" 'isValue = isLeftOut;'
+  plant turntable-ignores-up src/cli/render.cpp 'camera.up = options.up.value_or(camera.up);' ''
+  plant jpeg-by-one-name src/output/image_output.cpp \
+    'extensionOf(path) == ".jpg" || extensionOf(path) == ".jpeg"' 'extensionOf(path) == ".jpg"'
+  plant left-out-rays-twice src/cli/explain.cpp \
+    'restAdds_ += contributionOf(e_.rays.packets, number, n.local)' \
+    'restAdds_ += contributionOf(e_.rays.packets, number, n.radiance)'
+  plant auto-over-all src/cli/bench.cpp 'ratioOf(runs[i + 1], runs[i])' 'ratioOf(runs[i], runs[i + 1])'
 }
 
 mode=run
