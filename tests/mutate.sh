@@ -404,6 +404,10 @@ mutations() {
     'restAdds_ += contributionOf(e_.rays.packets, number, n.local)' \
     'restAdds_ += contributionOf(e_.rays.packets, number, n.radiance)'
   plant auto-over-all src/cli/bench.cpp 'ratioOf(runs[i + 1], runs[i])' 'ratioOf(runs[i], runs[i + 1])'
+
+  testedBy example_test 'Library.*'
+  plant exposure-of-the-other-camera src/engine/engine.cpp \
+    'optionsChanged_ |= camera || lookedThrough_;' 'optionsChanged_ |= camera.has_value();'
 }
 
 mode=run
