@@ -408,6 +408,21 @@ mutations() {
   testedBy example_test 'Library.*'
   plant exposure-of-the-other-camera src/engine/engine.cpp \
     'optionsChanged_ |= camera || lookedThrough_;' 'optionsChanged_ |= camera.has_value();'
+
+  testedBy viewer_test 'Sessions.*:Viewer.EachKey*:RecentScenes.*:SavedScenes.Find*'
+  plant undo-joins-next-edit viewer/session/history.cpp \
+    'sinceEdit_ = kEditPauseSeconds;' ''
+  plant q-and-e-swapped viewer/app_keys.cpp 'axis("E", "Q")' 'axis("Q", "E")'
+  plant recent-scenes-without-limit viewer/session/view_files.cpp \
+    'recent.resize(std::min(recent.size(), kMostRecent));' '(void)kMostRecent;'
+  plant parameters-not-saved viewer/session/view_files.cpp \
+    'document.root["parameters"][parameter] = value;' '(void)parameter, (void)value;'
+
+  testedBy serve_test 'Serving.SoMany*:Serving.ALarge*'
+  plant one-page-too-many viewer/serve/server.cpp 'pages_.size() >= kMostPages' 'pages_.size() > kMostPages'
+  plant page-shrunk-twice viewer/serve/served_session.cpp \
+    'std::sqrt(std::min(kMostWindowPixels / (width * height), 1.0))' \
+    'std::min(kMostWindowPixels / (width * height), 1.0)'
 }
 
 mode=run
