@@ -374,6 +374,56 @@ mutations() {
 
   testedBy viewer_test 'Viewer.AScenePaused*'
   plant command-time-rounded viewer/session/view_files.cpp '" --time %.17g"' '" --time %.3g"'
+
+  testedBy io_test 'GltfMotion.*:Mtl.*:Ply.*:ScenePaths.*'
+  plant length-of-last-sampler src/io/gltf/nodes.cpp \
+    'last = std::max(last, lastTime(document, sampler.need("input")));' \
+    'last = lastTime(document, sampler.need("input"));'
+  plant mtl-glass-of-vacuum src/io/obj/mtl_reader.cpp 'numberOr("ni", m.ior)' 'numberOr("ni", 1)'
+  plant ply-picture-behind-the-last src/io/ply/ply_model.cpp \
+    'face.picture < static_cast<double>(pictures.size())' \
+    'face.picture <= static_cast<double>(pictures.size())'
+  plant warning-swaps-files src/io/files.cpp \
+    'fallback.string() + " for " + excerpt(text)' 'excerpt(text) + " for " + fallback.string()'
+  plant shipped-before-variable src/io/files.cpp \
+    'for (const fs::path& folder : folders) {
+    fs::path candidate' 'for (const fs::path& folder : std::vector(folders.rbegin(), folders.rend())) {
+    fs::path candidate'
+
+  testedBy images_test 'ReadTga.*'
+  plant tga-palette-of-15-bits src/io/image/plain_formats.cpp '(entryBits + 7) / 8' 'entryBits / 8'
+
+  testedBy cli_test 'DeadEnds.*:BudgetCommands.*:TurntableCommand.*:Images.*:Explain.*:AbEffects.*'
+  plant serve-ignores-camera viewer/serve/serve_command.cpp \
+    'common.given.contains("camera") || common.ground' 'common.ground'
+  plant receipt-loses-a-word src/cli/render.cpp \
+    "isValue = isLeftOut && word.find('=') == std::string::npos;" 'isValue = isLeftOut;'
+  plant turntable-ignores-up src/cli/render.cpp 'camera.up = options.up.value_or(camera.up);' ''
+  plant jpeg-by-one-name src/output/image_output.cpp \
+    'extensionOf(path) == ".jpg" || extensionOf(path) == ".jpeg"' 'extensionOf(path) == ".jpg"'
+  plant left-out-rays-twice src/cli/explain.cpp \
+    'restAdds_ += contributionOf(e_.rays.packets, number, n.local)' \
+    'restAdds_ += contributionOf(e_.rays.packets, number, n.radiance)'
+  plant auto-over-all src/cli/bench.cpp 'ratioOf(runs[i + 1], runs[i])' 'ratioOf(runs[i], runs[i + 1])'
+
+  testedBy example_test 'Library.*'
+  plant exposure-of-the-other-camera src/engine/engine.cpp \
+    'optionsChanged_ |= camera || lookedThrough_;' 'optionsChanged_ |= camera.has_value();'
+
+  testedBy viewer_test 'Sessions.*:Viewer.EachKey*:RecentScenes.*:SavedScenes.Find*'
+  plant undo-joins-next-edit viewer/session/history.cpp \
+    'sinceEdit_ = kEditPauseSeconds;' ''
+  plant q-and-e-swapped viewer/app_keys.cpp 'axis("E", "Q")' 'axis("Q", "E")'
+  plant recent-scenes-without-limit viewer/session/view_files.cpp \
+    'recent.resize(std::min(recent.size(), kMostRecent));' '(void)kMostRecent;'
+  plant parameters-not-saved viewer/session/view_files.cpp \
+    'document.root["parameters"][parameter] = value;' '(void)parameter, (void)value;'
+
+  testedBy serve_test 'Serving.SoMany*:Serving.ALarge*'
+  plant one-page-too-many viewer/serve/server.cpp 'pages_.size() >= kMostPages' 'pages_.size() > kMostPages'
+  plant page-shrunk-twice viewer/serve/served_session.cpp \
+    'std::sqrt(std::min(kMostWindowPixels / (width * height), 1.0))' \
+    'std::min(kMostWindowPixels / (width * height), 1.0)'
 }
 
 mode=run

@@ -100,6 +100,17 @@ TEST_F(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
   EXPECT_TRUE(hasText(most, "more rays, adding"));
   EXPECT_NE(all.find("primary"), all.rfind("primary"));
   EXPECT_LT(most.size(), all.size());
+
+  // No sample is the whole pixel: all rays are left out, and add the pixel.
+  const std::string none = succeed(line + "1 --json rays.json").out;
+  const Json packets = jsonIn("rays.json")["packets"];
+  const std::string adding = " more rays, adding ";
+  std::istringstream rest(none.substr(none.find(adding) + adding.size()));
+  for (const Json& radiance : packets["radiance"]) {
+    double added = -1;
+    rest >> added;
+    EXPECT_NEAR(added, radiance.get<double>(), 1e-5) << none;
+  }
 }
 
 // The room asks for 196 samples, whose rays nobody would read.

@@ -277,7 +277,8 @@ TEST_F(Images, ABackgroundColorIsShownAsItIs) {
 // A mean difference below 8 codes allows for JPEG's losses at this quality, in flat and textured
 // parts alike.
 TEST_F(Images, AreWrittenAsJpeg) {
-  succeed("render matte -o a.png -o a.jpg --size 96x64");
+  succeed("render matte -o a.png -o a.jpg -o a.jpeg --size 96x64");
+  EXPECT_TRUE(bytesOf("a.jpeg") == bytesOf("a.jpg"));
   const RawImage png = storedIn("a.png"), jpeg = storedIn("a.jpg");
   ASSERT_EQ(jpeg.channels, 3);
   ASSERT_EQ(jpeg.codes.size(), png.codes.size());

@@ -76,6 +76,15 @@ TEST_F(TurntableCommand, TurnsAndCountMakeTheAngle) {
   }
 }
 
+// A model is given a view, which these options change.
+TEST_F(TurntableCommand, OptionsOfTheCameraChangeTheViewOfAModel) {
+  for (const auto& [name, value] : {std::pair{"up", "1,1,0"}, {"fov", "30"}, {"ortho", "3"}}) {
+    succeed(std::string("turntable cube.obj -o f#.exr --size 8x8 --count 1 --") + name + " " +
+            value);
+    EXPECT_EQ(metadataOf("f0.exr")[name], value);
+  }
+}
+
 TEST_F(TurntableCommand, WithoutFfmpegThereIsNoFilm) {
   const auto before = files();
   expectFailed(

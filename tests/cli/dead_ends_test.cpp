@@ -39,6 +39,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render chess", "no scene is called 'chess'; did you mean 'chess.glb'?"},
     {"render nope.glb", "cannot open nope.glb: no such file", kIo},
     {"serve --set /lights/0/intensity=4", "expected SCENE, because --animation"},
+    {"serve --camera front", "expected SCENE, because --animation"},
     {"render ?level=2", "expected a scene file, a model or the name of a shipped scene"},
     {"render whitted extra", "one word too many: 'extra'"},
     {"info", "expected SCENE"},

@@ -88,6 +88,13 @@ TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
   EXPECT_EQ(other.set("quality", "good").set("quality", "standard").get("spp"), "1");
 }
 
+TEST(Library, AnAutomaticExposureIsThatOfTheCamera) {
+  Renderer renderer = whittedRenderer();
+  const Image own = renderer.set("exposure", "auto").render();
+  renderer.lookThrough(R"({"eye": [0, 90, 0], "at": [1, 95, 0]})").render();
+  EXPECT_TRUE(std::ranges::equal(renderer.lookThrough("").render().srgb(), own.srgb()));
+}
+
 TEST(Library, TakesOptionsOverForFramesToCome) {
   Inside inside;
   Renderer renderer = whittedRenderer();

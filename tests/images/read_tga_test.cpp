@@ -21,10 +21,12 @@ TEST_F(ReadTga, RowsFromTheTopOrTheBottom) {
 }
 
 TEST_F(ReadTga, PalettesOfColorImagesArePassedOver) {
-  Bytes data(6, 99);
-  append(data, {1, 2, 3, 4});
-  EXPECT_EQ(codesOf({.type = 3, .bits = 8, .entries = 2, .entryBits = 24}, data),
-            (Bytes{1, 2, 3, 4}));
+  for (const auto& [entryBits, bytes] : {std::pair{24, 6}, {15, 4}}) {
+    Bytes data(static_cast<std::size_t>(bytes), 99);
+    append(data, {1, 2, 3, 4});
+    EXPECT_EQ(codesOf({.type = 3, .bits = 8, .entries = 2, .entryBits = entryBits}, data),
+              (Bytes{1, 2, 3, 4}));
+  }
 }
 
 TEST_F(ReadTga, RunsGoOnInTheNextRow) {

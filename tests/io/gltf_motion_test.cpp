@@ -63,7 +63,8 @@ TEST_F(GltfMotion, NodesTurnAndGrow) {
 
 TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   const std::string aside = animation("translation", {0, 2}, {0, 0, 0, 1, 0, 0}),
-                    up = animation("translation", {0, 2}, {0, 0, 0, 0, 1, 0});
+                    up = animation({{"translation", {0, 2}, {0, 0, 0, 0, 1, 0}},
+                                    {"scale", {0, 1}, {1, 1, 1, 1, 1, 1}}});
   const std::string text = moved(aside + "," + named("rise", up));
 
   expectNearInFloat(movedCorner(at(2, text), 0), {1, 0, 0});
@@ -77,7 +78,7 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   const std::vector<Animation> all = loadText(text).animations;
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[1].name, "rise");
-  EXPECT_EQ(all[1].seconds, 2);
+  EXPECT_EQ(all[1].seconds, 2);  // of the longest sampler
   EXPECT_EQ(all[1].nodes, 1u);
 
   // Accessors should state their largest number.

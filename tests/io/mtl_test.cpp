@@ -101,7 +101,8 @@ TEST_F(Mtl, IlluminationModels) {
                   "'diffuse': 0.125}");
   }
 
-  EXPECT_EQ(materialOf("d 0.25\nillum 4\n").transmission, Rgb(0.75f));
+  // Without Tf and Ni.
+  expectMembers(materialOf("d 0.25\nillum 4\n"), "{'transmission': 0.75, 'ior': 1.5}");
 }
 
 TEST_F(Mtl, ValuesOutOfRangeAreClampedAndCounted) {
@@ -206,7 +207,10 @@ TEST_F(Mtl, NamesOfOtherSystems) {
     EXPECT_NE(materialOf("map_Kd " + name + "\n").diffuseMap, kNoTexture) << name;
   }
 
-  expectWarned("file taken whose name or folder differs from the one in the model", 5);
+  const std::string kind = "file taken whose name or folder differs from the one in the model";
+  expectWarned(kind, 5);
+  EXPECT_TRUE(
+      hasText(warnings_.entries().at(kind).first, ": Textures/Wood.tga for textures/wood.TGA"));
 }
 
 // A file that the model may not name leaves the one beside the model.

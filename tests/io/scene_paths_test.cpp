@@ -118,6 +118,12 @@ TEST_F(ScenePaths, ShippedScenesByName) {
   setenv("WHIT_SCENES", root_.c_str(), 1);
   EXPECT_EQ(load("hall").name, "hall");
   EXPECT_EQ(load("hall?w=9").width, 9);
+
+  // The variable counts more than what is shipped.
+  options_.shippedScenes = sourceFile("scenes");
+  save("whitted.json", "{'whit': 1, 'size': [3, 1]}");
+  EXPECT_EQ(load("whitted").width, 3);
+  options_.shippedScenes.clear();
   EXPECT_EQ(errorOfFile("hal"), "2 no scene is called 'hal'; did you mean 'hall'?");
 }
 

@@ -628,6 +628,15 @@ TEST_F(Serving, PanningFollowsThePointer) {
   EXPECT_EQ(pannedAt("8000 1000 10"), usual);
 }
 
+// A picture of four million pixels is the largest.
+TEST_F(Serving, ALargePageGetsItsShape) {
+  session_->watch(1);
+  EXPECT_TRUE(session_->post(view::readMessages("size 4000 4000 1")));
+  EXPECT_TRUE(waitFor([](const Shot& shot) {
+    return parseJson(shot.live, "live")["window"] == Json({2000, 2000});
+  }));
+}
+
 // Addresses are printed as browsers and ssh take them.
 TEST_F(Serving, ItsPlaceCanBePasted) {
   const auto placeOf = [&](const std::string& bind) {
@@ -736,6 +745,18 @@ TEST_F(Serving, GarbageEndsItsOwnConnectionOnly) {
     EXPECT_FALSE(hasText(answer, "200 OK"));
   }
   EXPECT_EQ(status(root_), 200);
+}
+
+TEST_F(Serving, SoManyPagesAndNoMoreAreOpen) {
+  std::vector<int> open;
+  for (int i = 0; i <= kMostPages; ++i) {
+    open.push_back(connection());
+    send(open.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    char bytes[16] = {};
+    const auto count = std::max<ssize_t>(::recv(open.back(), bytes, sizeof bytes, 0), 0);
+    EXPECT_TRUE(hasText(std::string(bytes, count), i < kMostPages ? " 200 " : " 503 ")) << i;
+  }
+  for (const int socket : open) ::close(socket);
 }
 
 // Pages that never read are dropped, and do not keep others from watching meanwhile.

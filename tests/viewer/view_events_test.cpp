@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "core/option_table.h"
 #include "has_text.h"
 #include "viewer_fixture.h"
 
@@ -58,6 +59,34 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   render(lines[0], "again.exr");
   expectSameFile(folder_ / "tiny-0001.exr", folder_ / "again.exr");
   EXPECT_EQ(bytesOf("tiny-0002.exr"), bytesOf("tiny-0001.exr"));
+}
+
+// The scene's first camera is at (0, 2, 6) and looks along -z and down.
+TEST_F(Viewer, EachKeyWalksItsOwnWay) {
+  struct Key {
+    const char* held;  // the key, and for how long
+    int axis;
+    float way;
+  };
+  constexpr Key kKeys[] = {{"E 0.4", 1, 1},  {"Q 0.2", 1, -1}, {"D 0.4", 0, 1},
+                           {"A 0.2", 0, -1}, {"W 0.4", 2, -1}, {"S 0.2", 2, 1}};
+  std::string script;
+  for (const Key& key : kKeys) {
+    script += std::string("key ") + key.held + "\nwait 20 frames\nwait sharp\nkey C\n";
+  }
+
+  const Words lines = commandsOf(std::size(kKeys), script);
+  Vec3f before{0, 2, 6};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto& [held, axis, way] = kKeys[i];
+    const std::string option = "--eye=";
+    const std::size_t at = lines[i].find(option);
+    ASSERT_NE(at, std::string::npos) << lines[i];
+    Vec3f eye;
+    parseValue(OptionSpec{}, cli::split(lines[i].substr(at + option.size()))[0], eye);
+    EXPECT_GT(way * (eye[axis] - before[axis]), 0) << held;
+    before = eye;
+  }
 }
 
 // Makes events of all kinds that keys and mouse have, except for quitting and for writing files.

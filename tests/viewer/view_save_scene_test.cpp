@@ -85,6 +85,7 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   expectThatItShows("shown.png", {lines[0]});
   // Paths are relative to the folder of the new file.
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
+  EXPECT_EQ(read("s-edited.json")["parameters"]["fov"], 55);
 }
 
 // The copied command states the eye in coordinates of the model's file; the saved scene brings the

@@ -81,6 +81,13 @@ TEST_F(Sessions, OptionsAndEditsAreUndone) {
   EXPECT_EQ(state().options.depth, kDepthLimit);
 
   expectNothingToUndo();
+
+  // What is edited at once after undoing is another edit.
+  act("set depth 3");
+  for (const char* line : {"set depth 4", "undo", "set depth 5"}) session_->act(line);
+  settle();
+  act("undo");
+  EXPECT_EQ(state().options.depth, 3);
 }
 
 // Exact spheres are part of the acceleration structure, which the next picture builds anew. The

@@ -160,6 +160,14 @@ TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
   EXPECT_EQ(kept(), large);
 }
 
+TEST(RecentScenes, AreTheLastTenEachOnce) {
+  std::vector<std::string> recent;
+  for (const char* scene : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "g"}) {
+    rememberRecent(scene, recent);
+  }
+  EXPECT_EQ(recent, (std::vector<std::string>{"g", "l", "k", "j", "i", "h", "f", "e", "d", "c"}));
+}
+
 // A pixel is clicked on at the left: the panel is at its right. Another one is in the middle, where
 // neither side has room: the panel is above.
 TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
