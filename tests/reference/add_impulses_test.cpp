@@ -116,7 +116,7 @@ Scene hall(float reflectance) {
   Material m = mirrorMaterial(reflectance);
   m.emission = Rgb(1.0f);
   SceneBuilder builder;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
+  builder.add(box({-1, -1, -1}, {1, 1, 1}), m);
   return builder.build();
 }
 

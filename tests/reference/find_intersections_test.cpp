@@ -138,7 +138,7 @@ TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   m.roughnessMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
 
-  builder.add(floorAt(0, 1, builder.add(m)));
+  builder.add(floorAt(0, 1), m);
   const Scene scene = builder.build();
 
   for (const auto& [x, roughness] : {std::pair{-0.5, 0.75}, {0.0, 0.45}, {0.5, 0.15}}) {
@@ -262,7 +262,7 @@ TEST(Surfel, TexturesMultiplyColors) {
   m.specular = Rgb(0.25f);
   m.diffuseMap = m.specularMap = builder.add(makeTexture(
       TexelFormat::color, 2, 1, {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 1, 0})}));
-  builder.add(floorAt(0, 1, builder.add(m)));
+  builder.add(floorAt(0, 1), m);
   const Scene scene = builder.build();
 
   // u = 0.5 is halfway between black and yellow.
@@ -288,8 +288,8 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   Material m = diffuseMaterial(1);
   m.alphaMap = builder.add(makeTexture(TexelFormat::data, 2, 1, {0x00u, 0xffu}));
   m.alphaCutoff = 0.5f;
-  builder.add(floorAt(0, 1, builder.add(m)));
-  builder.add(floorAt(-1, 1, builder.add(diffuseMaterial(1))));
+  builder.add(floorAt(0, 1), m);
+  builder.add(floorAt(-1, 1), diffuseMaterial(1));
   const Scene scene = builder.build();
 
   const auto heightSeen = [&](double x, EffectSet effects) {

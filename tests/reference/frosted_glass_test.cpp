@@ -257,7 +257,7 @@ Material frostedGlass(float roughness, bool isThin) {
 
 RgbD throughBlock(const Material& m, const Settings& settings, RayCounts& counts) {
   SceneBuilder builder;
-  builder.add(box({-50, -2, -50}, {50, -1, 50}, builder.add(m)));
+  builder.add(box({-50, -2, -50}, {50, -1, 50}), m);
   builder.sky(1);
   return radianceAlong(builder.build(), {0, 1, 0}, steep(30), settings, &counts);
 }
@@ -269,7 +269,7 @@ TEST(FrostedGlass, ShowsWhatItsSurfaceTransmits) {
     Material m = frostedGlass(0.6f, false);
     m.transmission = {0.9f, 0.5f, 0.25f};
     SceneBuilder builder = withFloor(m, 1000);
-    builder.add(floorAt(-1, 1000, builder.add(emittingMaterial(1))));
+    builder.add(floorAt(-1, 1000), emittingMaterial(1));
 
     const Vec3d down = steep(degrees);
     const RgbD seen = radianceAlong(builder.build(), -down, down, sampled(1024));

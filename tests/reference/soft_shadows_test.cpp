@@ -15,8 +15,7 @@ Scene sceneOf(const Penumbra& p) {
   SceneBuilder builder = withFloor(diffuseMaterial(static_cast<float>(p.albedo)), 100);
   if (p.screen) {
     const auto y = static_cast<float>(p.edge);
-    builder.add(
-        quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}, builder.add(blackMaterial())));
+    builder.add(quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}), blackMaterial());
   }
 
   Light light = lightAt({0, static_cast<float>(p.height), 0}, static_cast<float>(p.intensity));

@@ -18,8 +18,7 @@ using namespace test;
 TEST(Pixel, IsTheMeanOverTheSamplePattern) {
   SceneBuilder builder;
   // The glowing surface is everything left of x = 0, at distance 5.
-  builder.add(
-      quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, builder.add(emittingMaterial(1))));
+  builder.add(quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}), emittingMaterial(1));
   const Scene scene = builder.build();
   const BruteForce bruteForce(scene);
 

@@ -23,7 +23,7 @@ void lookDown(SceneBuilder& builder) {
 // The point of the floor that a pixel's center sees reflects I kd / pi cos / d^2.
 TEST(Analytic, LightFallsOffOverAPlane) {
   SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  builder.add(floorAt(0, 8), diffuseMaterial(0.5f));
   const Light light = lightAt({0.5f, 2, -0.25f}, 10);
   builder.description.lights = {light};
   lookDown(builder);
@@ -61,7 +61,7 @@ TEST(Analytic, NothingShowsTheSky) {
 // A mirror of reflectance R reflects a sky of radiance 1, and there is nothing else.
 TEST(Analytic, MirrorShowsTheSky) {
   SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(mirrorMaterial(0.75f))));
+  builder.add(floorAt(0, 8), mirrorMaterial(0.75f));
   builder.sky(1);
   lookDown(builder);
   for (const Rgb& pixel : render(builder.build(), smallOptions()).image.pixels) {

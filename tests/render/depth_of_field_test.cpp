@@ -36,8 +36,9 @@ SceneDescription descriptionOf(double distance, bool parallel, float aperture = 
     return Vec3f(Vec3d{x + right, y + up, 2 - distance});
   };
 
-  builder.add(quad(corner(-half, -half), corner(half, -half), corner(half, half),
-                   corner(-half, half), builder.add(emittingMaterial(1))));
+  builder.add(
+      quad(corner(-half, -half), corner(half, -half), corner(half, half), corner(-half, half)),
+      emittingMaterial(1));
   return builder.describe();
 }
 Scene sceneOf(double distance, bool parallel, float aperture = 1.5f) {
@@ -166,7 +167,7 @@ Scene halfInMedium(float eye) {
   builder.sky(1);
   Material m = glassMaterial(1);
   m.absorption = Rgb(static_cast<float>(std::log(4.0)));
-  builder.add(box({-10, -10, -1}, {0, 10, 10}, builder.add(m)));
+  builder.add(box({-10, -10, -1}, {0, 10, 10}), m);
 
   Camera& camera = builder.lookFrom({eye, 0, 0}, {eye, 0, -1});
   camera.fov = 0.02f;

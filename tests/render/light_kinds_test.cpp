@@ -21,7 +21,7 @@ Light spot(float inner, float outer) {
 // The lights shine on a floor of albedo 0.5 that fills the picture.
 Scene floorUnder(const std::vector<Light>& lights) {
   SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  builder.add(floorAt(0, 8), diffuseMaterial(0.5f));
   builder.description.lights = lights;
 
   Camera& camera = builder.lookFrom({0, 3, 0});

@@ -22,7 +22,7 @@ Scene sceneOfMedia(const std::vector<int>& priorities) {
   for (std::uint32_t m = 0; m < kMedia; ++m) {
     Material glass = glassMaterial(1.1f + 0.1f * static_cast<float>(m), priorities[m]);
     glass.absorption = Rgb(0.25f * static_cast<float>(m + 1));
-    builder.add(floorAt(static_cast<float>(m), 1, builder.add(glass)));
+    builder.add(floorAt(static_cast<float>(m), 1), glass);
   }
   return builder.build();
 }

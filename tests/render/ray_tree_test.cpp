@@ -127,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "gloss
 // A surface stands before a wall, which emits light by default.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
   SceneBuilder builder;
-  builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.add(surface)));
-  builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}, builder.add(behind)));
+  builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), surface);
+  builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}), behind);
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
   return builder.build();
 }

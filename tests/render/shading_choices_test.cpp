@@ -83,8 +83,8 @@ Scene manyLights(int lights) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
   floor.mirror = floor.mirrorGrazing = Rgb(0.25f);
-  builder.add(floorAt(0, 8, builder.add(floor)));
-  builder.add(box({-2, 1, -2}, {0, 1.25f, 2}, builder.add(diffuseMaterial(0.7f))));
+  builder.add(floorAt(0, 8), floor);
+  builder.add(box({-2, 1, -2}, {0, 1.25f, 2}), diffuseMaterial(0.7f));
 
   Numbers numbers(64);
   for (int i = 0; i < lights; ++i) {
@@ -127,8 +127,8 @@ TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
 // for a quarter.
 TEST(LightCutoff, DecidesByTheContributionToThePixel) {
   SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
-  builder.add(ceilingAt(4, 8, builder.add(mirrorMaterial(0.25f))));
+  builder.add(floorAt(0, 8), diffuseMaterial(0.5f));
+  builder.add(ceilingAt(4, 8), mirrorMaterial(0.25f));
   builder.description.lights.push_back(lightAt({0, 2, 0}, 8));
   const Scene scene = builder.build();
 

@@ -40,7 +40,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
     for (const auto& [width, height] : sizes) {
       floor.diffuseMap = builder.add(numbered(width, height));
       builder.description.textures.back().wrapU = wrap;
-      builder.add(floorAt(0, 1, builder.add(floor)));
+      builder.add(floorAt(0, 1), floor);
     }
   }
 
@@ -89,7 +89,7 @@ Scene maskedFloor(const std::vector<Texture>& maps) {
   floor.diffuseMap = 0;
   floor.alphaMap = static_cast<std::int32_t>(maps.size()) - 1;
   floor.alphaCutoff = 0.5f;
-  builder.add(floorAt(0, 1, builder.add(floor)));
+  builder.add(floorAt(0, 1), floor);
   return builder.build();
 }
 
@@ -133,7 +133,7 @@ Scene paintedOver(int width) {
   }
 
   floor.diffuseMap = builder.add(makeTexture(TexelFormat::color, width, 1, texels));
-  builder.add(floorAt(0, 1, builder.add(floor)));
+  builder.add(floorAt(0, 1), floor);
   return builder.build();
 }
 

@@ -34,7 +34,7 @@ Scene balls(const std::vector<Material>& materials) {
     const Vec3d center{number % kBallsAcross - (kBallsAcross - 1) / 2.0,
                        number / kBallsAcross - (kBallsDown - 1) / 2.0, -8.0 * number};
     const Affine map = Affine::translation(center) * Affine::scaling(Vec3d(0.49));
-    builder.add(exactSphere(builder.add(materials[i]), map));
+    builder.add(exactSphere(0, map), materials[i]);
   }
 
   builder.lookFrom({0, 0, 50}).orthographicHeight = kBallsDown;

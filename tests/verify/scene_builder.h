@@ -124,7 +124,7 @@ inline Scene repaired(SceneDescription description, Warnings* warnings = nullptr
 
 // The corners are counter-clockwise from outside; uv covers the unit square from the first corner.
 inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
-                 std::uint32_t material) {
+                 std::uint32_t material = 0) {
   Mesh mesh;
   mesh.positions = {a, b, c, d};
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
