@@ -72,9 +72,7 @@ TEST(Surfel, NormalsFaceTheViewer) {
 }
 
 TEST(Surfel, OffsetBoundsTheRounding) {
-  SceneBuilder builder;
-  builder.add(floorAt(3, 2, 0));
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(floorAt(3, 2), blackMaterial());
 
   // In the corner (-2, 3, 2) the edges add up to (8, 0, 4); the magnitude along the normal is 3.
   constexpr double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0);
@@ -101,16 +99,11 @@ Mesh floorWith(const std::vector<Vec3f>& normals) {
   return mesh;
 }
 
-Scene sceneOf(Mesh mesh) {
-  SceneBuilder builder;
-  builder.add(std::move(mesh));
-  return builder.build();
-}
-
 TEST(Surfel, InterpolatesNormals) {
   const float s = std::sqrt(0.5f);
   // The normal of the first edge leans left, that of the opposite one right.
-  const Scene scene = sceneOf(floorWith({{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
+  const Scene scene =
+      sceneOf(floorWith({{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}), blackMaterial());
   expectNear(surfelAlong(scene, {0, 1, 0.5}).shadingNormal, {0, 1, 0}, 1e-7);
 
   // At three quarters of the way, the tangent is half of the border's.
@@ -122,7 +115,7 @@ TEST(Surfel, InterpolatesNormals) {
 
 // Facing is decided by the geometric normal alone (hard case H33).
 TEST(Surfel, ShadingNormalMayLookAway) {
-  const Scene scene = sceneOf(floorWith(std::vector(4, Vec3f{0.8f, 0.6f, 0})));
+  const Scene scene = sceneOf(floorWith(std::vector(4, Vec3f{0.8f, 0.6f, 0})), blackMaterial());
   const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
   EXPECT_TRUE(s.entering);
   EXPECT_LT(dot(s.view, s.shadingNormal), 0);

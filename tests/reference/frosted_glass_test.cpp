@@ -256,10 +256,8 @@ Material frostedGlass(float roughness, bool isThin) {
 }
 
 RgbD throughBlock(const Material& m, const Settings& settings, RayCounts& counts) {
-  SceneBuilder builder;
-  builder.add(box({-50, -2, -50}, {50, -1, 50}), m);
-  builder.sky(1);
-  return radianceAlong(builder.build(), {0, 1, 0}, steep(30), settings, &counts);
+  const Scene scene = sceneOf(box({-50, -2, -50}, {50, -1, 50}), m, 1);
+  return radianceAlong(scene, {0, 1, 0}, steep(30), settings, &counts);
 }
 
 // The surface of a solid is seen before a black sky, and what is in the solid has a radiance of 1:

@@ -98,9 +98,7 @@ TEST(IndirectRays, WeighTheAlbedoAndStayAboveTheSurface) {
 Scene roomOf(float albedo) {
   Material wall = diffuseMaterial(albedo);
   wall.emission = Rgb(1);
-  SceneBuilder builder;
-  builder.add(exactSphere(), wall);
-  return builder.build();
+  return sceneOf(exactSphere(), wall);
 }
 
 // The geometric series up to the depth.
@@ -164,12 +162,9 @@ TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
     m.ior = static_cast<float>(numbers.in(0.6, 2.5));
     m.thin = numbers.in(0, 1) < 0.2;
 
-    SceneBuilder builder;
-    builder.add(exactSphere(), m);
-    builder.sky(1);
     Settings settings = indirect(1, 12);
     settings.options.cutoff = 1e-3f;
-    const Scene scene = builder.build();
+    const Scene scene = sceneOf(exactSphere(), m, 1);
     Looking looking(scene, settings);
 
     for (std::uint32_t path = 0; path < 8; ++path) {
@@ -325,9 +320,7 @@ TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
 }
 
 TEST(IndirectScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
-  SceneBuilder builder;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}), diffuseMaterial(1));
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}), diffuseMaterial(1));
   for (const int depth : {1, 3}) {
     Looking looking(scene, indirect(16, depth));
     looking.along({0, 0, 0}, {1, 2, 3}, 1);

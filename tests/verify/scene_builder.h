@@ -190,6 +190,17 @@ inline Mesh exactSphere(std::uint32_t material = 0, const Affine& map = {}) {
   return mesh;
 }
 
+// The mesh of one material, under a sky of this radiance if it is not black.
+inline Scene sceneOf(Mesh mesh, const Material& material, float radiance = 0) {
+  SceneBuilder builder;
+  builder.add(std::move(mesh), material);
+  if (radiance > 0) builder.sky(radiance);
+  return builder.build();
+}
+
+// Camera that looks down from 3 above the origin.
+inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
+
 // A fixed sequence of numbers, the same on every machine.
 class Numbers {
  public:
