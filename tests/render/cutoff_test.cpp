@@ -95,7 +95,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
 
   RenderOptions o = smallOptions({16, 12});
   const auto [packets, reference] = renderBoth(builder.build(), o);
-  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+  for (const auto i : indices(packets.image.pixels)) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
   }
 }

@@ -57,7 +57,7 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
     const double left = reference::transmittance(scene, stack, 1).x;
     const Chunk& c = kernel.chunk();
 
-    for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
+    for (const auto slot : indices(2 * kMedia)) {
       SCOPED_TRACE(testing::Message() << "stack " << stack << " slot " << slot);
       const SurfelRow scalar = kernel.scalar(slot);
       ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind);

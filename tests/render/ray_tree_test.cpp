@@ -152,7 +152,7 @@ TEST(RayTree, OfAMirror) {
   const RayTree reference = trees.referenceAt(4, 4, tree);
   ASSERT_EQ(reference.nodes.size(), 2u);
   const std::vector<std::size_t> counterpart = counterparts(tree, reference);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const auto i : indices(2)) {
     ASSERT_EQ(counterpart[i], i);
     EXPECT_TRUE(agree(tree.nodes[i], reference.nodes[i]));
     EXPECT_NEAR(length(tree.nodes[i].position - reference.nodes[i].position), 0, 1e-5);

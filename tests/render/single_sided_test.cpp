@@ -22,7 +22,7 @@ void turn(Mesh& mesh) {
 std::uint32_t filtered(const Scene& scene) {
   std::uint32_t count = 0;
   for (const Geometry& g : scene.geometries) {
-    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (const auto c : indices(kTriangleClasses)) {
       if ((c & kMaskedBit) != 0) count += g.classBegin[c + 1] - g.classBegin[c];
     }
   }

@@ -48,7 +48,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
   ASSERT_EQ(tables.textures.size(), 3 * sizes.size());
 
-  for (std::size_t i = 0; i < tables.textures.size(); ++i) {
+  for (const auto i : indices(tables.textures)) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
     const Texture rows = numbered(record.width, record.height);
@@ -128,7 +128,7 @@ Scene paintedOver(int width) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
   std::vector<std::uint32_t> texels(width);
-  for (std::size_t i = 0; i < texels.size(); ++i) {
+  for (const auto i : indices(texels)) {
     texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
   }
 

@@ -29,7 +29,7 @@ Scene balls(const std::vector<Material>& materials) {
   SceneBuilder builder;
   builder.sky(1);
   builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
-  for (std::size_t i = 0; i < materials.size(); ++i) {
+  for (const auto i : indices(materials)) {
     const auto number = static_cast<int>(i);
     const Vec3d center{number % kBallsAcross - (kBallsAcross - 1) / 2.0,
                        number / kBallsAcross - (kBallsDown - 1) / 2.0, -8.0 * number};
