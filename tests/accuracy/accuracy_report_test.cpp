@@ -46,7 +46,7 @@ TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
   const std::vector<CsvRow> rows = parseCsv(sweepCsv({sweep}, facts), "sweep.csv");
   ASSERT_EQ(points.size(), rows.size());
 
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (const auto i : indices(rows)) {
     EXPECT_GT(rows[i].size(), 65u);
     for (const auto& [name, field] : rows[i]) {
       const Json& value = points[i].at(name);

@@ -12,24 +12,13 @@
 #include "has_text.h"
 #include "inspect/knobs.h"
 #include "inspect/metrics.h"
-#include "io/load_scene.h"
+#include "render/shipped_scene.h"
 #include "unit/scene_builder.h"
 
 namespace whit {
 namespace {
 
-Scene load(const std::string& name, const LoadOptions& options = {}) {
-  Warnings warnings;
-  return Scene::finalize(loadScene(name, options, warnings), warnings);
-}
-
-Image rendered(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  renderer.render(chooseCamera(scene, options), film);
-  return film.image;
-}
-
+using test::load;
 using Values = std::vector<std::pair<std::string, std::string>>;
 
 // The options with these values.
@@ -106,7 +95,7 @@ TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
     same.size = receipt.options.size;
     same.threads = receipt.options.threads;
     EXPECT_EQ(same, receipt.options);
-    EXPECT_EQ(rendered(scene, same).pixels, image.pixels);
+    EXPECT_EQ(test::render(scene, same).image.pixels, image.pixels);
     EXPECT_LE(receipt.low, receipt.error);
     EXPECT_GE(receipt.high, receipt.error);
   }
@@ -134,7 +123,7 @@ TEST(Budgets, ThatAreTooSmallSaySo) {
 TEST(Budgets, ThatAreTooSmallTakeNoSamplesOfLights) {
   LoadOptions soft;
   soft.settings = {"/lights/0/radius=0.5"};
-  const Scene scene = load("matte", soft);
+  const Scene scene = test::repaired(test::described("matte", soft));
 
   for (double ms = 1; ms <= 64; ms *= 1.5) {
     const Receipt receipt = chooseFor(scene, {.ms = ms}).receipt;
@@ -157,7 +146,7 @@ TEST(Budgets, TellTheErrorOfThePicture) {
   many.spp = 1024;
   for (const auto& knob : chosen.receipt.approximate) setOption(many, knob.name, knob.exact);
   const double flip =
-      compareImages(chosen.image, rendered(scene, many), 0, many.toneCurve).flipMean;
+      compareImages(chosen.image, test::render(scene, many).image, 0, many.toneCurve).flipMean;
   EXPECT_GE(flip, chosen.receipt.low);
   EXPECT_LE(flip, chosen.receipt.high);
 
@@ -182,7 +171,7 @@ Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
     for (int x = 0; x < 64; ++x) {
       // The square lies anywhere within its pixel.
       const double left = x - 32 + place(random), low = y - 24 + place(random);
-      const auto first = static_cast<std::uint32_t>(squares.positions.size());
+      const auto first = size32(squares.positions);
       for (const Vec3f& corner : test::square().positions) {
         squares.positions.emplace_back(Vec3d{left + corner.x * side, low + corner.y * side, 0});
       }
@@ -197,11 +186,13 @@ Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = behind;
 
-  d.cameras.resize(1);
-  d.cameras[0].eye = {0, 0, 10};
-  d.cameras[0].at = {0, 0, 0};
-  d.cameras[0].orthographicHeight = 48;
-  return test::finalized(std::move(d));
+  d.cameras = {{.eye = {0, 0, 10}, .at = {0, 0, 0}, .orthographicHeight = 48}};
+  return test::finalized(d);
+}
+
+// The picture of 16 samples, whose error is told in codes.
+Chosen ofSixteenSamples(const Scene& scene) {
+  return chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, with({{"spp", "16"}}));
 }
 
 // The root mean square of codes by which an image differs from one color.
@@ -214,8 +205,7 @@ double codesFrom(const Rgb& color, const Image& image) {
 // Red and green squares of equal brightness: the mean of red, green and blue has no noise.
 TEST(Targets, CountTheNoiseOfEachColor) {
   const Rgb red{0.8f, 0.05f, 0.05f}, green{0.05f, 0.8f, 0.05f};
-  const Chosen chosen = chooseFor(lattice(0.5, red, green), {.error = 1, .inCodes = true}, {"spp"},
-                                  with({{"spp", "16"}}));
+  const Chosen chosen = ofSixteenSamples(lattice(0.5, red, green));
 
   const double error = codesFrom((red + green) / 2.0f, chosen.image);
   EXPECT_GT(error, 1);
@@ -227,8 +217,7 @@ TEST(Targets, CountTheNoiseOfEachColor) {
 TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   constexpr double kGray = 0.2;
   for (const double share : {0.5, 1.0 / 256}) {
-    const Chosen chosen = chooseFor(lattice(share, Rgb(static_cast<float>(kGray / share))),
-                                    {.error = 1, .inCodes = true}, {"spp"}, with({{"spp", "16"}}));
+    const Chosen chosen = ofSixteenSamples(lattice(share, Rgb(static_cast<float>(kGray / share))));
     const double error = codesFrom(Rgb(static_cast<float>(kGray)), chosen.image);
 
     const Receipt& receipt = chosen.receipt;

@@ -44,7 +44,7 @@ TEST(Pareto, AgainstTheDefinition) {
     const std::set<std::size_t> members(front.begin(), front.end());
 
     std::set<std::pair<double, double>> values;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto i : indices(points)) {
       const bool beaten =
           std::ranges::any_of(points, [&](const CostAndError& q) { return beats(q, points[i]); });
       EXPECT_FALSE(beaten && members.contains(i));

@@ -15,9 +15,7 @@ namespace {
 
 SceneDescription room() {
   SceneDescription d = test::sceneOf(test::square());
-  d.cameras.resize(1);
-  d.cameras[0].eye = {0.5f, 0.5f, 2};
-  d.cameras[0].at = {0.5f, 0.5f, 0};
+  d.cameras = {{.eye = {0.5f, 0.5f, 2}, .at = {0.5f, 0.5f, 0}}};
   d.lights.push_back({"lamp", {0.5f, 0.5f, 1}, {1, 1, 1}, 0.01f});
   d.textures.push_back(test::whiteTexture(TexelFormat::color));
   d.materials[0].diffuseMap = 0;
@@ -29,7 +27,7 @@ SceneDescription room() {
 std::string digestAfter(const std::function<void(SceneDescription&)>& change) {
   SceneDescription d = room();
   change(d);
-  return digestOf(test::finalized(std::move(d)));
+  return digestOf(test::finalized(d));
 }
 
 // Expects that of the two ranks that are added to the scene, the order matters and not the values.
@@ -74,7 +72,7 @@ TEST(SceneDigest, EveryTableMatters) {
   };
 
   const std::string before = digestAfter([](auto&) {});
-  for (std::size_t i = 0; i < std::size(changes); ++i) {
+  for (const auto i : indices(changes)) {
     EXPECT_NE(digestAfter(changes[i]), before) << i;
   }
 }

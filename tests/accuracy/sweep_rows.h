@@ -104,7 +104,7 @@ inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& 
     EXPECT_EQ(fields.size(), header.size()) << name << ":" << line;
 
     CsvRow& row = rows.emplace_back();
-    for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
+    for (const auto i : indices(header)) row[header[i]] = fields.at(i);
   }
   return rows;
 }

@@ -113,6 +113,7 @@ inline PlainJson yard() {
       "{'type': 'directional', 'direction': [-1, -2, -1], 'irradiance': [0.3, 0.3, 0.3]}],"
       "'sky': {'zenith': [0.2, 0.4, 0.9], 'horizon': [1, 0.9, 0.8], 'ground': [0.3, 0.2, 0.1]},"
       "'ambient': {'up': 0.2, 'down': 0.1, 'occlusion': 1.5, 'reflection': 1},"
+
       "'textures': {'checker': {'pattern': 'checker', 'size': 32, 'columns': 6, 'rows': 6},"
       "'dents': {'pattern': 'bricksNormals', 'size': 32, 'depth': 0.05},"
       "'mask': {'pattern': 'leafMask', 'size': 32}},"

@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 // Returns a scene whose floor has the material. Surfels of it lie at the origin.
-Scene sceneOf(const Material& material) { return withFloor(material).build(); }
+Scene floorOf(const Material& material) { return withFloor(material).build(); }
 
 Surfel surfelSeen(const Vec3d& view, const Vec3d& shadingNormal) {
   Surfel s;
@@ -34,7 +34,7 @@ Impulses impulsesOf(const Scene& scene, const Surfel& s, EffectSet effects = Eff
 TEST(Mirror, WeightFollowsSchlick) {
   Material m = mirrorMaterial(0.25f);
   m.mirrorGrazing = Rgb(0.75f);
-  const Scene scene = sceneOf(m);
+  const Scene scene = floorOf(m);
   for (const double c : {1.0, 0.5, 0.1}) {
     const Surfel s = surfelSeen({std::sqrt(1 - c * c), c, 0}, {0, 1, 0});
     const Impulses found = impulsesOf(scene, s);
@@ -46,7 +46,7 @@ TEST(Mirror, WeightFollowsSchlick) {
 
 TEST(Mirror, StartsAboveTheSurface) {
   const Ray ray =
-      impulsesOf(sceneOf(mirrorMaterial(1)), surfelSeen({3, 4, 0}, {0, 1, 0})).reflected.ray;
+      impulsesOf(floorOf(mirrorMaterial(1)), surfelSeen({3, 4, 0}, {0, 1, 0})).reflected.ray;
   // The origin is moved by `offset` along the normal and by `viewOffset` towards the viewer.
   expectNear(ray.origin, {0.3e-3, 1.4e-3, 0}, 1e-15);
   expectNear(ray.direction, {-0.6, 0.8, 0}, 1e-15);
@@ -54,7 +54,7 @@ TEST(Mirror, StartsAboveTheSurface) {
 
 // Hard case H32: a tilted shading normal never sends light into the surface.
 TEST(Lift, KeepsReflectionsAboveTheSurface) {
-  const Scene scene = sceneOf(mirrorMaterial(1));
+  const Scene scene = floorOf(mirrorMaterial(1));
   Numbers numbers(11);
   int raised = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -99,11 +99,10 @@ TEST(Lift, IsContinuousAndIdempotent) {
 TEST(Lift, ViewBehindTheShadingNormal) {
   Material m = mirrorMaterial(0.5f);
   m.transmission = Rgb(1.0f);
-  const Scene scene = sceneOf(m);
   const Surfel s = surfelSeen({-1, 0.1, 0}, {1, 0.5, 0});
   ASSERT_LT(dot(s.view, s.shadingNormal), 0);
 
-  const Impulses found = impulsesOf(scene, s);
+  const Impulses found = impulsesOf(floorOf(m), s);
   EXPECT_TRUE(isFinite(found.reflected.ray.direction));
   EXPECT_GT(found.reflected.ray.direction.y, 0);
   EXPECT_NEAR(found.reflected.weight.x, 1, 1e-15) << "total reflection, coat or not";
@@ -115,9 +114,7 @@ TEST(Lift, ViewBehindTheShadingNormal) {
 Scene hall(float reflectance) {
   Material m = mirrorMaterial(reflectance);
   m.emission = Rgb(1.0f);
-  SceneBuilder builder;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
-  return builder.build();
+  return sceneOf(box({-1, -1, -1}, {1, 1, 1}), m);
 }
 
 double seenInHall(const Scene& scene, const Settings& settings, RayCounts& counts) {

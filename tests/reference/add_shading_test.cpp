@@ -17,8 +17,8 @@ TEST(Lights, AddUpAndKeepTheirColors) {
   m.diffuse = {1, 0.5f, 0.25f};
   Light blue = lightAt({0, 3, 0}, 9);
   blue.intensity = {0, 9, 18};
-  const Scene scene = litFloor(m, {lightAt({0, 2, 0}, 4), blue});
-  expectNear(radianceBelow(scene) * kPi, {1, 0.5 * 2, 0.25 * 3});
+  expectNear(radianceBelow(litFloor(m, {lightAt({0, 2, 0}, 4), blue})) * kPi,
+             {1, 0.5 * 2, 0.25 * 3});
 }
 
 }  // namespace

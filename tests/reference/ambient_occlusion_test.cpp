@@ -84,7 +84,7 @@ TEST(AmbientOcclusion, PassesWhatCastsNoShadow) {
   SceneBuilder builder = floorInAmbientLight(10);
   Material clear = glassMaterial(1.5f);
   clear.castsShadow = false;
-  builder.add(ceilingAt(1, 1000, builder.add(clear)));
+  builder.add(ceilingAt(1, 1000), clear);
   EXPECT_EQ(openShareAt(builder.build(), 0).value(), 1);
 }
 

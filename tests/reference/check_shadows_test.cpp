@@ -17,7 +17,7 @@ using namespace test;
 // -1.
 Scene screenWith(const Material& material) {
   SceneBuilder builder = withFloor(diffuseMaterial(1), 10);
-  builder.add(quad({-9, 1, 5}, {0, 1, 5}, {0, 1, -5}, {-9, 1, -5}, builder.add(material)));
+  builder.add(quad({-9, 1, 5}, {0, 1, 5}, {0, 1, -5}, {-9, 1, -5}), material);
   builder.description.lights = {lightAt({1, 2, 0}, 1)};
   return builder.build();
 }

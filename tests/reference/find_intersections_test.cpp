@@ -72,9 +72,7 @@ TEST(Surfel, NormalsFaceTheViewer) {
 }
 
 TEST(Surfel, OffsetBoundsTheRounding) {
-  SceneBuilder builder;
-  builder.add(floorAt(3, 2, 0));
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(floorAt(3, 2), blackMaterial());
 
   // In the corner (-2, 3, 2) the edges add up to (8, 0, 4); the magnitude along the normal is 3.
   constexpr double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0);
@@ -101,16 +99,11 @@ Mesh floorWith(const std::vector<Vec3f>& normals) {
   return mesh;
 }
 
-Scene sceneOf(Mesh mesh) {
-  SceneBuilder builder;
-  builder.add(std::move(mesh));
-  return builder.build();
-}
-
 TEST(Surfel, InterpolatesNormals) {
   const float s = std::sqrt(0.5f);
   // The normal of the first edge leans left, that of the opposite one right.
-  const Scene scene = sceneOf(floorWith({{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
+  const Scene scene =
+      sceneOf(floorWith({{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}), blackMaterial());
   expectNear(surfelAlong(scene, {0, 1, 0.5}).shadingNormal, {0, 1, 0}, 1e-7);
 
   // At three quarters of the way, the tangent is half of the border's.
@@ -122,7 +115,7 @@ TEST(Surfel, InterpolatesNormals) {
 
 // Facing is decided by the geometric normal alone (hard case H33).
 TEST(Surfel, ShadingNormalMayLookAway) {
-  const Scene scene = sceneOf(floorWith(std::vector(4, Vec3f{0.8f, 0.6f, 0})));
+  const Scene scene = sceneOf(floorWith(std::vector(4, Vec3f{0.8f, 0.6f, 0})), blackMaterial());
   const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
   EXPECT_TRUE(s.entering);
   EXPECT_LT(dot(s.view, s.shadingNormal), 0);
@@ -138,7 +131,7 @@ TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   m.roughnessMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
 
-  builder.add(floorAt(0, 1, builder.add(m)));
+  builder.add(floorAt(0, 1), m);
   const Scene scene = builder.build();
 
   for (const auto& [x, roughness] : {std::pair{-0.5, 0.75}, {0.0, 0.45}, {0.5, 0.15}}) {
@@ -262,7 +255,7 @@ TEST(Surfel, TexturesMultiplyColors) {
   m.specular = Rgb(0.25f);
   m.diffuseMap = m.specularMap = builder.add(makeTexture(
       TexelFormat::color, 2, 1, {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 1, 0})}));
-  builder.add(floorAt(0, 1, builder.add(m)));
+  builder.add(floorAt(0, 1), m);
   const Scene scene = builder.build();
 
   // u = 0.5 is halfway between black and yellow.
@@ -288,8 +281,8 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   Material m = diffuseMaterial(1);
   m.alphaMap = builder.add(makeTexture(TexelFormat::data, 2, 1, {0x00u, 0xffu}));
   m.alphaCutoff = 0.5f;
-  builder.add(floorAt(0, 1, builder.add(m)));
-  builder.add(floorAt(-1, 1, builder.add(diffuseMaterial(1))));
+  builder.add(floorAt(0, 1), m);
+  builder.add(floorAt(-1, 1), diffuseMaterial(1));
   const Scene scene = builder.build();
 
   const auto heightSeen = [&](double x, EffectSet effects) {

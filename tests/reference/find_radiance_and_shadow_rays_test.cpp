@@ -19,11 +19,7 @@ TEST(Lights, FallOffOverAFloor) {
   const Scene scene = litFloor(diffuseMaterial(0.5f), {lightAt({0.5f, 2, -0.25f}, 30)});
 
   // The camera looks down with -z up. Its picture shows 7 units of the floor along z.
-  Camera camera;
-  camera.eye = {0, 5, 0};
-  camera.at = {0, 0, 0};
-  camera.up = {0, 0, -1};
-  camera.orthographicHeight = 7;
+  const Camera camera{.eye = {0, 5, 0}, .at = {0, 0, 0}, .up = {0, 0, -1}, .orthographicHeight = 7};
 
   Image image(9, 7);
   const RayCounts counts = render(scene, BruteForce(scene), camera, uncut(), image);
@@ -55,11 +51,17 @@ TEST(Lights, NearTheSurfaceStayFinite) {
   }
 }
 
-TEST(Lights, BehindTheSurfaceGiveNothing) {
-  const Scene scene = litFloor(diffuseMaterial(1), {lightAt({0, -2, 0}, 1)});
+// Expects a white floor to be dark from above, and no shadow ray to look for its lights.
+Scene expectDark(const std::vector<Light>& lights) {
+  Scene scene = litFloor(diffuseMaterial(1), lights);
   RayCounts counts;
   EXPECT_EQ(radianceBelow(scene, {0, 1, 0}, uncut(), &counts), RgbD());
-  EXPECT_EQ(counts[RayKind::shadow], 0u) << "nothing to look for";
+  EXPECT_EQ(counts[RayKind::shadow], 0u);
+  return scene;
+}
+
+TEST(Lights, BehindTheSurfaceGiveNothing) {
+  const Scene scene = expectDark({lightAt({0, -2, 0}, 1)});
   EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
 }
 
@@ -152,11 +154,7 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
 
 // Hard case H67: light arrives along the surface, or from behind it.
 TEST(DirectionalLight, H67_givesNothingFromTheHorizonOrBelow) {
-  const Scene scene =
-      litFloor(diffuseMaterial(1), {sun({1, 0, 0}, 1), sun({0, 1, 0}, 1), sun({1, 1e-30f, 0}, 1)});
-  RayCounts counts;
-  EXPECT_EQ(radianceBelow(scene, {0, 1, 0}, uncut(), &counts), RgbD());
-  EXPECT_EQ(counts[RayKind::shadow], 0u);
+  expectDark({sun({1, 0, 0}, 1), sun({0, 1, 0}, 1), sun({1, 1e-30f, 0}, 1)});
 }
 
 TEST(DirectionalLight, HasAHighlight) {

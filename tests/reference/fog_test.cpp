@@ -47,7 +47,7 @@ TEST(Fog, DimsChannelsByThemselves) {
 
 TEST(Fog, LiesOnBothWaysOfAMirroredPath) {
   SceneBuilder builder = foggyFloor(mirrorMaterial(0.5f));
-  builder.add(ceilingAt(5, 10, builder.add(emittingMaterial(3))));
+  builder.add(ceilingAt(5, 10), emittingMaterial(3));
   EXPECT_NEAR(radianceBelow(builder.build(), {0, 2, 0}).x, behind(2, 0.5 * behind(5, 3)), kOffsets);
 }
 

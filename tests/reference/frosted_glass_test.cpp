@@ -256,10 +256,8 @@ Material frostedGlass(float roughness, bool isThin) {
 }
 
 RgbD throughBlock(const Material& m, const Settings& settings, RayCounts& counts) {
-  SceneBuilder builder;
-  builder.add(box({-50, -2, -50}, {50, -1, 50}, builder.add(m)));
-  builder.sky(1);
-  return radianceAlong(builder.build(), {0, 1, 0}, steep(30), settings, &counts);
+  const Scene scene = sceneOf(box({-50, -2, -50}, {50, -1, 50}), m, 1);
+  return radianceAlong(scene, {0, 1, 0}, steep(30), settings, &counts);
 }
 
 // The surface of a solid is seen before a black sky, and what is in the solid has a radiance of 1:
@@ -269,7 +267,7 @@ TEST(FrostedGlass, ShowsWhatItsSurfaceTransmits) {
     Material m = frostedGlass(0.6f, false);
     m.transmission = {0.9f, 0.5f, 0.25f};
     SceneBuilder builder = withFloor(m, 1000);
-    builder.add(floorAt(-1, 1000, builder.add(emittingMaterial(1))));
+    builder.add(floorAt(-1, 1000), emittingMaterial(1));
 
     const Vec3d down = steep(degrees);
     const RgbD seen = radianceAlong(builder.build(), -down, down, sampled(1024));

@@ -41,7 +41,7 @@ TEST(PrimaryRay, PassesTheLensAndMeetsThePlaneOfFocus) {
     std::array<int, 8> sectors{};
 
     const Ray central = generateRay(pinhole, 7.25, 13.5);
-    for (std::size_t sample = 0; sample < kSamples; ++sample) {
+    for (const auto sample : indices(kSamples)) {
       const Ray ray = primaryRay(frame, 7, 13, {0.25f, 0.5f}, sample).ray;
       const Vec3d aside = ray.origin - central.origin;
       EXPECT_NEAR(dot(aside, frame.forward), 0, 1e-14);

@@ -98,9 +98,7 @@ TEST(IndirectRays, WeighTheAlbedoAndStayAboveTheSurface) {
 Scene roomOf(float albedo) {
   Material wall = diffuseMaterial(albedo);
   wall.emission = Rgb(1);
-  SceneBuilder builder;
-  builder.add(exactSphere(builder.add(wall)));
-  return builder.build();
+  return sceneOf(exactSphere(), wall);
 }
 
 // The geometric series up to the depth.
@@ -164,12 +162,9 @@ TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
     m.ior = static_cast<float>(numbers.in(0.6, 2.5));
     m.thin = numbers.in(0, 1) < 0.2;
 
-    SceneBuilder builder;
-    builder.add(exactSphere(builder.add(m)));
-    builder.sky(1);
     Settings settings = indirect(1, 12);
     settings.options.cutoff = 1e-3f;
-    const Scene scene = builder.build();
+    const Scene scene = sceneOf(exactSphere(), m, 1);
     Looking looking(scene, settings);
 
     for (std::uint32_t path = 0; path < 8; ++path) {
@@ -266,8 +261,8 @@ TEST(FormFactors, OfPerpendicularPlates) {
   for (const auto& size : {std::array{1.0f, 1.0f, 1.0f}, {2.0f, 1.0f, 0.5f}, {1.0f, 0.4f, 3.0f}}) {
     const float w = size[0], d = size[1], t = size[2];
     SceneBuilder builder;
-    builder.add(quad({0, 0, w}, {d, 0, w}, {d, 0, 0}, {0, 0, 0}, builder.add(diffuseMaterial(1))));
-    builder.add(quad({0, 0, 0}, {0, t, 0}, {0, t, w}, {0, 0, w}, builder.add(emittingMaterial(1))));
+    builder.add(quad({0, 0, w}, {d, 0, w}, {d, 0, 0}, {0, 0, 0}), diffuseMaterial(1));
+    builder.add(quad({0, 0, 0}, {0, t, 0}, {0, t, w}, {0, 0, w}), emittingMaterial(1));
     const Scene scene = builder.build();
 
     Looking looking(scene, indirect(16, 1));
@@ -287,7 +282,7 @@ TEST(FormFactors, OfPerpendicularPlates) {
 // which oracle/ compares. So caustics are as bright as they should be.
 TEST(IndirectScenes, APlateBelowABallLensGetsWhatAnEyeThereSees) {
   SceneBuilder builder = withFloor(diffuseMaterial(1), 1e-3f);
-  builder.add(exactSphere(builder.add(glassMaterial(1.5f)), Affine::translation(Vec3d(0, 1.4, 0))));
+  builder.add(exactSphere(0, Affine::translation(Vec3d(0, 1.4, 0))), glassMaterial(1.5f));
   Sky& sky = builder.description.sky;
   sky.kind = Sky::Kind::gradient;  // white above, black below
   sky.zenith = Rgb(1.0f);
@@ -310,7 +305,7 @@ TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
   SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 1000);
   Material kept = diffuseMaterial(0.5f);
   kept.diffuseReflection = false;
-  builder.add(floorAt(1, 0.5f, builder.add(kept)));
+  builder.add(floorAt(1, 0.5f), kept);
   builder.description.ambient = {Rgb(1), Rgb(1)};
   const Scene scene = builder.build();
 
@@ -325,9 +320,7 @@ TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
 }
 
 TEST(IndirectScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
-  SceneBuilder builder;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(diffuseMaterial(1))));
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}), diffuseMaterial(1));
   for (const int depth : {1, 3}) {
     Looking looking(scene, indirect(16, depth));
     looking.along({0, 0, 0}, {1, 2, 3}, 1);
@@ -339,7 +332,7 @@ TEST(IndirectScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
 // floor reflects.
 TEST(IndirectScenes, LightOfALampComesFromWhatItShinesOn) {
   SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 1000);
-  builder.add(ceilingAt(2, 1000, builder.add(diffuseMaterial(1))));
+  builder.add(ceilingAt(2, 1000), diffuseMaterial(1));
   builder.description.lights = {sun({0, -1, 0}, static_cast<float>(kPi))};
   builder.description.materials[1].castsShadow = false;
   const Scene scene = builder.build();

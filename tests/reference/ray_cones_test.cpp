@@ -153,7 +153,7 @@ TEST(RayCone, GrowsOnSurfacesSeenAtAnAngle) {
 TEST(RayCone, GoesOnBehindAMirror) {
   SceneBuilder builder;
   builder.add(glowingFloor(builder, noise()));
-  builder.add(ceilingAt(100, kTexels / 2.0f, builder.add(mirrorMaterial(0.5f))));
+  builder.add(ceilingAt(100, kTexels / 2.0f), mirrorMaterial(0.5f));
   const Scene scene = builder.build();
   expectNear(seen(scene, {{3.3, 72, 2.1}, {0, 1, 0}, {0, 1.0 / 64}}), floorColor(scene, 1) * 0.5,
              kOffset);  // 28 + 100 units of way

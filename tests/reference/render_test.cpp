@@ -18,8 +18,8 @@ Scene stillLife() {
   coated.mirror = Rgb(0.3f);
   coated.mirrorGrazing = Rgb(1.0f);
 
-  builder.add(box({-2, 0, -1}, {-1, 1, 0}, builder.add(coated)));
-  builder.add(box({0.2f, 0.1f, 0}, {1.2f, 1.1f, 1}, builder.add(glassMaterial(1.5f))));
+  builder.add(box({-2, 0, -1}, {-1, 1, 0}), coated);
+  builder.add(box({0.2f, 0.1f, 0}, {1.2f, 1.1f, 1}), glassMaterial(1.5f));
 
   builder.sky(0.7f);
   builder.description.ambient = {Rgb(0.2f), Rgb(0.1f)};

@@ -50,7 +50,7 @@ inline reference::Settings without(Effect effect, reference::Settings settings =
 // Returns the builder of a floor at height 0, 2 * half wide.
 inline SceneBuilder withFloor(const Material& material, float half = 1) {
   SceneBuilder builder;
-  builder.add(floorAt(0, half, builder.add(material)));
+  builder.add(floorAt(0, half), material);
   return builder;
 }
 

@@ -11,12 +11,11 @@ namespace {
 using namespace test;
 
 // Builds the scene of the oracle: its floor, its screen and its light.
-Scene sceneOf(const Penumbra& p) {
+Scene floorUnder(const Penumbra& p) {
   SceneBuilder builder = withFloor(diffuseMaterial(static_cast<float>(p.albedo)), 100);
   if (p.screen) {
     const auto y = static_cast<float>(p.edge);
-    builder.add(
-        quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}, builder.add(blackMaterial())));
+    builder.add(quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}), blackMaterial());
   }
 
   Light light = lightAt({0, static_cast<float>(p.height), 0}, static_cast<float>(p.intensity));
@@ -42,7 +41,7 @@ constexpr double kPoints = 4096, kOff = 0.004;
 
 TEST(SoftShadows, AnEdgeHasThePenumbraOfTheIntegral) {
   const Penumbra p;
-  const Scene scene = sceneOf(p);
+  const Scene scene = floorUnder(p);
   const Settings settings = soft(static_cast<int>(kPoints));
   for (const double x : {-1.2, -0.45, -0.3, -0.15, 0.0, 0.1, 0.25, 0.4, 0.55, 1.2}) {
     EXPECT_NEAR(seenAt(scene, x, settings), p.radianceAt(x), kOff * p.unshadowedAt(x)) << x;
@@ -51,7 +50,7 @@ TEST(SoftShadows, AnEdgeHasThePenumbraOfTheIntegral) {
 
 TEST(SoftShadows, WithNothingBetweenTheSphereIsAsBrightAsItsCenter) {
   const Penumbra p{.screen = false};
-  const Scene scene = sceneOf(p);
+  const Scene scene = floorUnder(p);
   for (const double x : {0.0, 1.0, 4.0}) {
     const double wanted = p.unshadowedAt(x);
     EXPECT_NEAR(p.radianceAt(x), wanted, 1e-3 * wanted) << "the oracle";
@@ -61,7 +60,7 @@ TEST(SoftShadows, WithNothingBetweenTheSphereIsAsBrightAsItsCenter) {
 
 TEST(SoftShadows, OnePointIsTheCenterAndCostsOneRay) {
   const Penumbra p;
-  const Scene scene = sceneOf(p);
+  const Scene scene = floorUnder(p);
   RayCounts counts;
   const double wanted = p.unshadowedAt(0.7);
   EXPECT_NEAR(seenAt(scene, 0.7, soft(1), &counts), wanted, 1e-6 * wanted);
@@ -71,7 +70,7 @@ TEST(SoftShadows, OnePointIsTheCenterAndCostsOneRay) {
 }
 
 TEST(SoftShadows, APointHasNone) {
-  const Scene point = sceneOf(Penumbra{.radius = static_cast<double>(kPointRadius)});
+  const Scene point = floorUnder(Penumbra{.radius = static_cast<double>(kPointRadius)});
   RayCounts counts;
   EXPECT_EQ(seenAt(point, 0.2, soft(16), &counts), seenAt(point, 0.2, soft(1)));
   EXPECT_EQ(counts[RayKind::shadow], 1u);
@@ -79,7 +78,7 @@ TEST(SoftShadows, APointHasNone) {
 
 // From inside the sphere, no cone of directions contains it.
 TEST(SoftShadows, InsideOfTheSphereTheCenterStandsForIt) {
-  const Scene scene = sceneOf(Penumbra{.height = 0.5, .radius = 2, .screen = false});
+  const Scene scene = floorUnder(Penumbra{.height = 0.5, .radius = 2, .screen = false});
   EXPECT_NEAR(seenAt(scene, 0.1, soft(4)), seenAt(scene, 0.1, soft(1)), 1e-12);
 }
 

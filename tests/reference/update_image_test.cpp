@@ -16,11 +16,9 @@ using namespace test;
 
 // A pixel that an edge crosses shows the share of samples on the bright side.
 TEST(Pixel, IsTheMeanOverTheSamplePattern) {
-  SceneBuilder builder;
   // The glowing surface is everything left of x = 0, at distance 5.
-  builder.add(
-      quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, builder.add(emittingMaterial(1))));
-  const Scene scene = builder.build();
+  const Scene scene =
+      sceneOf(quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}), emittingMaterial(1));
   const BruteForce bruteForce(scene);
 
   // The number of columns is odd, so that the edge crosses the middle of column 4.

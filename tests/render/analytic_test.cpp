@@ -14,19 +14,12 @@ namespace {
 // A float is rounded twenty times in a formula of about that many operations.
 constexpr double kFloatFormula = 20 * 0x1p-24;
 
-void lookDown(SceneBuilder& builder) {
-  Camera& camera = builder.lookFrom({0, 3, 0});
-  camera.up = {0, 0, -1};
-  camera.fov = 50;
-}
-
 // The point of the floor that a pixel's center sees reflects I kd / pi cos / d^2.
 TEST(Analytic, LightFallsOffOverAPlane) {
-  SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 8);
   const Light light = lightAt({0.5f, 2, -0.25f}, 10);
   builder.description.lights = {light};
-  lookDown(builder);
+  builder.description.cameras = {lookingDown()};
   const Scene scene = builder.build();
   const Image image = render(scene, smallOptions()).image;
 
@@ -48,7 +41,7 @@ TEST(Analytic, LightFallsOffOverAPlane) {
 TEST(Analytic, NothingShowsTheSky) {
   SceneBuilder builder;
   builder.sky(0.25f);
-  lookDown(builder);
+  builder.description.cameras = {lookingDown()};
   const Scene scene = repaired(std::move(builder.description));
   ASSERT_TRUE(scene.materials.empty());
 
@@ -60,10 +53,9 @@ TEST(Analytic, NothingShowsTheSky) {
 
 // A mirror of reflectance R reflects a sky of radiance 1, and there is nothing else.
 TEST(Analytic, MirrorShowsTheSky) {
-  SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(mirrorMaterial(0.75f))));
+  SceneBuilder builder = withFloor(mirrorMaterial(0.75f), 8);
   builder.sky(1);
-  lookDown(builder);
+  builder.description.cameras = {lookingDown()};
   for (const Rgb& pixel : render(builder.build(), smallOptions()).image.pixels) {
     EXPECT_EQ(pixel, Rgb(0.75f));
   }

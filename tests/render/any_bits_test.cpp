@@ -45,7 +45,7 @@ class OwnChunk {
   OwnChunk(const Chunk& from, std::size_t children)
       : chunk(from), children_(chunk.children, children, 0, features_) {
     chunk.childCount = 0;
-    for (std::size_t i = 0; i < from.n; ++i) chunk.rays.parent[i] %= kParents;
+    for (const auto i : indices(from.n)) chunk.rays.parent[i] %= kParents;
   }
 
   static constexpr std::size_t kParents = 64;
@@ -147,8 +147,8 @@ std::vector<std::uint32_t> resultsOf(const Chunk& c) {
   const auto isSound = [](std::size_t slot) { return !isSpoilt(slot); };
   const auto isSurfel = [&](std::size_t i) { return isSound(i) && c.surfels.material[i] != kMiss; };
   std::vector<bool> lit(c.n);
-  for (std::size_t i = 0; i < c.n; ++i) lit[i] = isSound(i) && c.unshadowed.visible[i] != 0;
-  for (std::size_t i = 0; i < c.shadowCount; ++i) {
+  for (const auto i : indices(c.n)) lit[i] = isSound(i) && c.unshadowed.visible[i] != 0;
+  for (const auto i : indices(c.shadowCount)) {
     lit[c.shadows.slot[i]] = isSound(c.shadows.slot[i]);
   }
 
@@ -165,7 +165,7 @@ std::vector<std::uint32_t> resultsOf(const Chunk& c) {
 
   // A parent's radiance counts only if no spoilt slot adds to it.
   std::vector<bool> spoilt(OwnChunk::kParents);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (isSpoilt(i)) spoilt[c.rays.parent[i]] = true;
   }
   appendRows(

@@ -20,8 +20,8 @@ float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
 // An emitting plate fills the view.
 Scene glowing(float radiance, float sky = 0, float side = 10) {
   verify::SceneBuilder builder;
-  builder.add(verify::quad({-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0},
-                           builder.add(verify::emittingMaterial(radiance))));
+  builder.add(verify::quad({-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}),
+              verify::emittingMaterial(radiance));
   builder.description.cameras.emplace_back();
   builder.sky(sky);
   return builder.build();

@@ -587,7 +587,7 @@ TEST(ChannelLaws, AgreeWithTheReference) {
       const ChannelLayers &packets = both.packets.channels, &reference = both.reference.channels;
 
       std::size_t parted = 0;
-      for (std::size_t i = 0; i < packets.pixels(); ++i) {
+      for (const auto i : indices(packets.pixels())) {
         const auto same = [&](Channel c) {
           return packets.numbers(c)[i] == reference.numbers(c)[i];
         };

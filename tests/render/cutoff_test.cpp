@@ -15,7 +15,7 @@ constexpr int kDepth = 64;
 // A cube seen from within.
 Scene closedRoom(const Material& wall) {
   SceneBuilder builder;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
+  builder.add(box({-1, -1, -1}, {1, 1, 1}), wall);
   builder.lookFrom({0.1f, 0.2f, 0.3f}, {1, 0, 0});
   return builder.build();
 }
@@ -89,13 +89,13 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   m.mirror = m.mirrorGrazing = Rgb(1, 0, 0);
   m.transmission = Rgb(0.5f, 0, 0);
   m.ior = 2.5f;
-  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
+  builder.add(box({-1, -1, -1}, {1, 1, 1}), m);
   builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
   builder.lookFrom({0.5f, 0.7f, 3});
 
   RenderOptions o = smallOptions({16, 12});
   const auto [packets, reference] = renderBoth(builder.build(), o);
-  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+  for (const auto i : indices(packets.image.pixels)) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
   }
 }

@@ -36,8 +36,9 @@ SceneDescription descriptionOf(double distance, bool parallel, float aperture = 
     return Vec3f(Vec3d{x + right, y + up, 2 - distance});
   };
 
-  builder.add(quad(corner(-half, -half), corner(half, -half), corner(half, half),
-                   corner(-half, half), builder.add(emittingMaterial(1))));
+  builder.add(
+      quad(corner(-half, -half), corner(half, -half), corner(half, half), corner(-half, half)),
+      emittingMaterial(1));
   return builder.describe();
 }
 Scene sceneOf(double distance, bool parallel, float aperture = 1.5f) {
@@ -62,7 +63,7 @@ TEST(DepthOfField, IsSharpInThePlaneOfFocus) {
 
       o.disable = {Effect::depthOfField};
       const Image pinhole = render(scene, o).image;
-      for (std::size_t i = 0; i < lens.pixels.size(); ++i) {
+      for (const auto i : indices(lens.pixels)) {
         // A ray at the emitter's edge may miss it by rounding.
         ASSERT_NEAR(lens.pixels[i].x, pinhole.pixels[i].x, 1.01 / 16) << i;
       }
@@ -139,11 +140,10 @@ TEST(DepthOfField, ChannelsAreThoseOfTheRayThroughTheLens) {
   RenderOptions o = optionsOf(9);
   ASSERT_NE(nearestToCenter(samplePattern(o.spp)), 0u);
   o.channels = parseChannels("depth,position,rays");
-  const Scene scene = sceneOf(8, false);
 
-  const auto [packets, reference] = renderBoth(scene, o);
+  const auto [packets, reference] = renderBoth(sceneOf(8, false), o);
   int apart = 0, aside = 0;
-  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+  for (const auto i : indices(packets.image.pixels)) {
     const float z = packets.channels.floats(Channel::depth)[2 * i];
     apart += std::isinf(z) != std::isinf(reference.channels.floats(Channel::depth)[2 * i]);
     if (std::isinf(z)) continue;
@@ -166,7 +166,7 @@ Scene halfInMedium(float eye) {
   builder.sky(1);
   Material m = glassMaterial(1);
   m.absorption = Rgb(static_cast<float>(std::log(4.0)));
-  builder.add(box({-10, -10, -1}, {0, 10, 10}, builder.add(m)));
+  builder.add(box({-10, -10, -1}, {0, 10, 10}), m);
 
   Camera& camera = builder.lookFrom({eye, 0, 0}, {eye, 0, -1});
   camera.fov = 0.02f;

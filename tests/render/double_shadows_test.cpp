@@ -62,7 +62,7 @@ class BruteForceInDouble {
       Triangle t;
       t.number = world.firstTriangle + i;
       const float* p = scene.triangles[t.number].position;
-      for (std::size_t k = 0; k < 3; ++k) t.corner[k] = {p[3 * k], p[3 * k + 1], p[3 * k + 2]};
+      for (const auto k : indices(3)) t.corner[k] = {p[3 * k], p[3 * k + 1], p[3 * k + 2]};
       t.normal = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
       for (const Segment& e : edgesOf(t)) t.longest = std::max(t.longest, length(e.way()));
       triangles_.push_back(t);
@@ -72,7 +72,7 @@ class BruteForceInDouble {
   // Finds the nearest triangle. Its distance is in lengths of the ray.
   std::optional<Found> nearest(const Segment& ray) const {
     std::optional<Found> found;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (const auto i : indices(triangles_)) {
       const std::optional<double> t = meet(triangles_[i], ray);
       if (t && !(found && found->t <= *t)) found = {i, *t};
     }
@@ -80,7 +80,7 @@ class BruteForceInDouble {
   }
 
   bool blocked(const Segment& ray, std::size_t self) const {
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (const auto i : indices(triangles_)) {
       if (i == self) continue;
       const std::optional<double> t = meet(triangles_[i], ray);
       if (t && *t < 1) return true;
@@ -91,7 +91,7 @@ class BruteForceInDouble {
   // True if rays within `reach` of this one, after rounding, may hit something else than it does.
   // Shadow rays start on `self`.
   bool passesAnEdge(const Segment& ray, double reach, std::size_t self = kNoHit) const {
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (const auto i : indices(triangles_)) {
       if (i != self && grazes(triangles_[i], ray, reach)) return true;
     }
     return false;
@@ -112,7 +112,7 @@ class BruteForceInDouble {
     if (scene_.materials[record.material].alphaMap == kNoTexture) return false;
 
     double u = 0;
-    for (std::size_t k = 0; k < 3; ++k) u += weights[k] * double{record.uv[2 * k]};
+    for (const auto k : indices(3)) u += weights[k] * double{record.uv[2 * k]};
     const double fromBlack = u - 0.75 - std::round(u - 0.75);
     return 2 * std::fabs(fromBlack) < 0.5;
   }
@@ -122,7 +122,7 @@ class BruteForceInDouble {
 
     // The signs of these volumes tell on which side of each edge the ray passes.
     std::array<double, 3> side{};
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       side[k] = dot(d, cross(t.corner[k] - ray.from, t.corner[(k + 1) % 3] - ray.from));
     }
 

@@ -37,7 +37,7 @@ Rays raysAtEdges(const Mesh& mesh, std::mt19937& random) {
   std::uniform_real_distribution<float> uniform(0, kSide);
   Rays rays;
 
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (const auto i : indices(kRays)) {
     const auto& corners = mesh.triangles[random() % mesh.triangles.size()];
     const std::size_t side = random() % 3;
     Vec3f target = (mesh.positions[corners[side]] + mesh.positions[corners[(side + 1) % 3]]) * 0.5f;
@@ -58,7 +58,7 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
   columns.allocate(roundUpToBlock(kRays), FeatureSet());
   hits.allocate(roundUpToBlock(kRays), FeatureSet());
 
-  for (std::size_t k = 0; k < kRays; ++k) {
+  for (const auto k : indices(kRays)) {
     setRay(*columns, k, rays.origin[order[k]], rays.direction[order[k]]);
   }
 
@@ -78,7 +78,7 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
   findHits(chunk);
 
   std::vector<HitBits> result(kRays);
-  for (std::size_t k = 0; k < kRays; ++k) {
+  for (const auto k : indices(kRays)) {
     HitBits& hit = result[order[k]];
     hit = {hits->triangle[k], 0, 0, 0};
     if (hit[0] == kMiss) continue;

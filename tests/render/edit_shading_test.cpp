@@ -35,7 +35,7 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   EXPECT_NE(firstDifference(before, after), "") << "the edit changes nothing";
   EXPECT_EQ(firstDifference(render(read, options), after), "");
   EXPECT_EQ(edited.effects, read.effects);
-  for (std::size_t i = 0; i < kEffectCount; ++i) {
+  for (const auto i : indices(kEffectCount)) {
     EXPECT_EQ(edited.reasons[i].because, read.reasons[i].because);
   }
 }

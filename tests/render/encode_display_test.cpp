@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
   ColumnStore<RadianceColumns> radiance(values.size(), FeatureSet());
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (const auto i : indices(values)) {
     radiance->rgb.set(i, Rgb(values[i]));
   }
 
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
 void expectScalarCodes(const std::vector<float>& values) {
   forEachTarget([&](const std::string&) {
     const std::vector<std::uint32_t> codes = codesOf(values);
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const auto i : indices(values)) {
       const auto code = static_cast<std::uint32_t>(srgbCode(static_cast<double>(values[i])));
       ASSERT_EQ(codes[i], 0xFF000000u | code << 16 | code << 8 | code)
           << std::hexfloat << values[i];

@@ -120,7 +120,7 @@ TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
   o.cutoff = 1e-4f;
   const Film exact = render(scene, o);
   double largest = 0;
-  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+  for (const auto i : indices(film.image.pixels)) {
     const Rgb missing = exact.image.pixels[i] - film.image.pixels[i];
     const auto boundOf = [&](const Film& f) {
       return kBrightest * double{f.channels.floats(Channel::error)[2 * i + 1]} + kRounding;
@@ -164,7 +164,7 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
 
     // Pixels that have no error and claim none say nothing about those that do.
     double covered = 0, noisy = 0, uncertain = 0;
-    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    for (const auto i : indices(truth.pixels)) {
       const double apart = std::abs(meanOf(film.image.pixels[i]) - meanOf(truth.pixels[i]));
       const double error = double{film.channels.floats(Channel::error)[2 * i]};
       const double rounding = 1e-6 * meanOf(truth.pixels[i]);

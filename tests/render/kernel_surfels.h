@@ -22,7 +22,7 @@ class KernelSurfels {
     Chunk& c = chunk();
     c.frame = &constants_;
     c.n = kBlock;
-    for (std::size_t i = 0; i < kBlock; ++i) c.hits.triangle[i] = c.hits.instance[i] = kMiss;
+    for (const auto i : indices(kBlock)) c.hits.triangle[i] = c.hits.instance[i] = kMiss;
   }
 
   // Sets a ray of weight 1 that has gone 1 far along `direction`, in the media of `stack`, to the

@@ -20,13 +20,9 @@ Light spot(float inner, float outer) {
 
 // The lights shine on a floor of albedo 0.5 that fills the picture.
 Scene floorUnder(const std::vector<Light>& lights) {
-  SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 8);
   builder.description.lights = lights;
-
-  Camera& camera = builder.lookFrom({0, 3, 0});
-  camera.up = {0, 0, -1};
-  camera.fov = 50;
+  builder.description.cameras = {lookingDown()};
   return builder.build();
 }
 

@@ -22,7 +22,7 @@ Scene sceneOfMedia(const std::vector<int>& priorities) {
   for (std::uint32_t m = 0; m < kMedia; ++m) {
     Material glass = glassMaterial(1.1f + 0.1f * static_cast<float>(m), priorities[m]);
     glass.absorption = Rgb(0.25f * static_cast<float>(m + 1));
-    builder.add(floorAt(static_cast<float>(m), 1, builder.add(glass)));
+    builder.add(floorAt(static_cast<float>(m), 1), glass);
   }
   return builder.build();
 }
@@ -57,7 +57,7 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
     const double left = reference::transmittance(scene, stack, 1).x;
     const Chunk& c = kernel.chunk();
 
-    for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
+    for (const auto slot : indices(2 * kMedia)) {
       SCOPED_TRACE(testing::Message() << "stack " << stack << " slot " << slot);
       const SurfelRow scalar = kernel.scalar(slot);
       ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind);

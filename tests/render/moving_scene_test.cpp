@@ -73,7 +73,7 @@ TEST(MovingScene, MotionOfABallIsThatOfItsPoints) {
   const auto positions = film.channels.floats(Channel::position);
   const auto motions = film.channels.floats(Channel::motion);
   int seen = 0;
-  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+  for (const auto i : indices(film.image.pixels)) {
     const bool isHit = film.channels.numbers(Channel::object)[i] != kNoNumber;
     seen += isHit;
 
@@ -88,6 +88,18 @@ TEST(MovingScene, MotionOfABallIsThatOfItsPoints) {
   EXPECT_GT(seen, 300);
 }
 
+// Places a square of 6 by 6 units and a brighter one of 2 by 2, each with its mover.
+void placeSquares(SceneBuilder& builder, std::uint32_t moverOfLarge, std::uint32_t moverOfSmall) {
+  const Affine upright = Affine::rotation({1, 0, 0}, 90);
+  for (const bool isLarge : {true, false}) {
+    const Mesh square =
+        floorAt(0, isLarge ? 3 : 1, builder.add(emittingMaterial(isLarge ? 0.25f : 1)));
+    builder.place({"square", {square}},
+                  {Affine::translation(isLarge ? Vec3d() : Vec3d{0.3, -0.2, 0}) * upright});
+    builder.description.instances.back().mover = isLarge ? moverOfLarge : moverOfSmall;
+  }
+}
+
 // Of two squares in one plane the later one is seen wherever both move, each by its own motion.
 TEST(MovingScene, CoplanarSquaresMoveTogether) {
   SceneBuilder builder = movedBy([](double seconds) {
@@ -95,13 +107,7 @@ TEST(MovingScene, CoplanarSquaresMoveTogether) {
   });
   Rig& rig = builder.description.motion.rig;
   rig.push_back(rig[0]);
-  const Affine upright = Affine::rotation({1, 0, 0}, 90);
-  for (const float half : {3.0f, 1.0f}) {
-    const std::uint32_t material = builder.add(emittingMaterial(half < 2 ? 1 : 0.25f));
-    builder.place({"square", {floorAt(0, half, material)}},
-                  {Affine::translation(half < 2 ? Vec3d{0.3, -0.2, 0} : Vec3d()) * upright});
-    builder.description.instances.back().mover = half < 2;
-  }
+  placeSquares(builder, 0, 1);
 
   MovingPicture moving(builder.build(), squarePicture());
   EXPECT_FALSE(moving.scene.coplanar.empty());
@@ -118,13 +124,7 @@ TEST(MovingScene, SquaresMeetAfterTheStart) {
   SceneBuilder builder = movedBy([](double seconds) {
     return Affine::translation({0, 0, 1 - seconds});
   });
-  const Affine upright = Affine::rotation({1, 0, 0}, 90);
-  for (const float half : {3.0f, 1.0f}) {
-    const std::uint32_t material = builder.add(emittingMaterial(half < 2 ? 1 : 0.25f));
-    builder.place({"square", {floorAt(0, half, material)}},
-                  {Affine::translation(half < 2 ? Vec3d{0.3, -0.2, 0} : Vec3d()) * upright});
-    if (half < 2) builder.description.instances.back().mover = 0;
-  }
+  placeSquares(builder, kNoNode, 0);
 
   MovingPicture moving(builder.build(), squarePicture());
   EXPECT_TRUE(moving.scene.coplanar.empty());
@@ -144,7 +144,7 @@ void addVault(float shift, Mesh& mesh) {
   constexpr int kColumns = 8;
   for (int i = 0; i <= kColumns; ++i) {
     const float x = static_cast<float>(i) / (kColumns / 2) - 1;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto first = size32(mesh.positions);
     for (const float y : {-1.0f, 1.0f}) {
       mesh.positions.push_back({x + shift, y, 0.5f - 0.5f * x * x});
       mesh.normals.emplace_back(normalized(Vec3d{x, 0, 1}));
@@ -174,7 +174,7 @@ std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
 
   for (const Vec3f& p : mesh.positions) {
     d.influences.push_back({p.x > 1 ? 1u : 0u, 1});
-    d.firstInfluence.push_back(static_cast<std::uint32_t>(d.influences.size()));
+    d.firstInfluence.push_back(size32(d.influences));
   }
   return std::make_shared<const Deformation>(std::move(d));
 }

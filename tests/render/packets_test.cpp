@@ -43,7 +43,7 @@ class Packets : public testing::Test {
 
 template <typename Columns>
 void fillRays(const Columns& rays) {
-  for (std::size_t i = 0; i < kPacked; ++i) {
+  for (const auto i : indices(kPacked)) {
     const auto x = static_cast<float>(i);
     setRay(rays, i, {x, -2 * x, x + 0.5f}, {1, -x, 0.25f * x});
   }
@@ -65,12 +65,12 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
     simd::findPacketKernels().packRays(*rays, kPacked, kReach, packets(width));
-    for (std::size_t i = 0; i < (kPacked + width - 1) / width * width; ++i) {
+    for (const auto i : indices((kPacked + width - 1) / width * width)) {
       // Invalid rays and lanes behind the last ray are inactive: their tFar is negative.
       const float place = i < kPacked ? kReach / 4 : 0;
       Vec3f origin(place), direction{0, 0, 1};
       float reach = -1;
-      if (i < kPacked && std::ranges::find(bad, i) == bad.end()) {
+      if (i < kPacked && !contains(bad, i)) {
         origin = rays->org.at(i);
         direction = rays->dir.at(i);
         reach = kInf;
@@ -91,12 +91,12 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
 TEST_F(Packets, HoldWhereShadowRaysEnd) {
   ColumnStore<ShadowColumns> rays(kPacked, FeatureSet());
   fillRays(*rays);
-  for (std::size_t i = 0; i < kPacked; ++i) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
+  for (const auto i : indices(kPacked)) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
     simd::findPacketKernels().packShadowRays(*rays, kPacked, kReach, packets(width));
-    for (std::size_t i = 0; i < kPacked; ++i) {
-      const bool good = std::ranges::find(bad, i) == bad.end();
+    for (const auto i : indices(kPacked)) {
+      const bool good = !contains(bad, i);
       EXPECT_EQ(word(i, packet_column::tFar, width), good ? rays->tFar[i] : -1) << i;
     }
   });

@@ -50,7 +50,7 @@ Plan planOf(EffectSet effects, const RenderOptions& options = withGlossySamples(
 
 TEST(Kernels, BelongToStagesInOrder) {
   EXPECT_TRUE(std::ranges::is_sorted(kKernels, {}, &Kernel::stage));
-  for (std::size_t s = 0; s < kStageCount; ++s) {
+  for (const auto s : indices(kStageCount)) {
     EXPECT_NE(std::ranges::find(kKernels, static_cast<Stage>(s), &Kernel::stage), kKernels.end())
         << kStageNames[s];
   }

@@ -152,8 +152,8 @@ TEST(Projected, DepthsAreTheClosedForm) {
   for (const auto& [name, camera] : projectedCameras(pose)) {
     SCOPED_TRACE(name);
     SceneBuilder builder;
-    builder.add(exactSphere(builder.add(emittingMaterial(1)),
-                            Affine::translation(center) * Affine::scaling(Vec3d(kRadius))));
+    builder.add(exactSphere(0, Affine::translation(center) * Affine::scaling(Vec3d(kRadius))),
+                emittingMaterial(1));
     builder.description.cameras = {camera};
     RenderOptions o = smallOptions(kSmallSize);
     o.channels = parseChannels("depth,alpha");

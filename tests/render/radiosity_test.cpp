@@ -20,7 +20,7 @@ TEST(Radiosity, HalvesOfASphereLightEachOther) {
   SceneBuilder builder;
   wall.emissionMap = builder.add(makeTexture(
       TexelFormat::color, 2, 1, {encodeColorTexel(Rgb(1.0f)), encodeColorTexel(Rgb(0.0f))}));
-  builder.add(exactSphere(builder.add(wall)));
+  builder.add(exactSphere(), wall);
   // The half that emits is to the left of the eye, which looks along the plane between them.
   builder.lookFrom({-0.3f, 0.2f, 0}, {1, 0, 0});
   const Scene scene = builder.build();

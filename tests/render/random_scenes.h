@@ -87,7 +87,7 @@ inline Scene randomScene(unsigned kind, unsigned seed) {
     soup.builder.description.materials[0].alphaMap = soup.builder.add(dataMap(2, {1, 0}));
 
     for (int i = 0; i < 30; ++i) triangle(above(), 1);
-    for (std::size_t i = 0; i < soup.mesh.positions.size(); ++i) {
+    for (const auto i : indices(soup.mesh.positions)) {
       soup.mesh.uvs.push_back({i < 6 ? 0.25f : soup.uniform(0, 1), 0.5f});
     }
   }

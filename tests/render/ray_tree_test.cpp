@@ -127,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "gloss
 // A surface stands before a wall, which emits light by default.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
   SceneBuilder builder;
-  builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.add(surface)));
-  builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}, builder.add(behind)));
+  builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), surface);
+  builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}), behind);
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
   return builder.build();
 }
@@ -152,7 +152,7 @@ TEST(RayTree, OfAMirror) {
   const RayTree reference = trees.referenceAt(4, 4, tree);
   ASSERT_EQ(reference.nodes.size(), 2u);
   const std::vector<std::size_t> counterpart = counterparts(tree, reference);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const auto i : indices(2)) {
     ASSERT_EQ(counterpart[i], i);
     EXPECT_TRUE(agree(tree.nodes[i], reference.nodes[i]));
     EXPECT_NEAR(length(tree.nodes[i].position - reference.nodes[i].position), 0, 1e-5);

@@ -64,7 +64,7 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     EXPECT_LE(differenceOf(both).pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1)
         << choice.name;
 
-    for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
+    for (const auto kind : indices(kRayKindCount)) {
       const auto rays = static_cast<double>(both.reference.stats.meter.tally[kind].rays);
       EXPECT_NEAR(static_cast<double>(both.packets.stats.meter.tally[kind].rays), rays,
                   1e-3 * rays + 1)
@@ -83,8 +83,8 @@ Scene manyLights(int lights) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
   floor.mirror = floor.mirrorGrazing = Rgb(0.25f);
-  builder.add(floorAt(0, 8, builder.add(floor)));
-  builder.add(box({-2, 1, -2}, {0, 1.25f, 2}, builder.add(diffuseMaterial(0.7f))));
+  builder.add(floorAt(0, 8), floor);
+  builder.add(box({-2, 1, -2}, {0, 1.25f, 2}), diffuseMaterial(0.7f));
 
   Numbers numbers(64);
   for (int i = 0; i < lights; ++i) {
@@ -109,7 +109,7 @@ TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
     const Picture got = render(scene, o);
 
     float worst = 0;
-    for (std::size_t i = 0; i < got.image.pixels.size(); ++i) {
+    for (const auto i : indices(got.image.pixels)) {
       const Rgb lost = wanted.image.pixels[i] - got.image.pixels[i];
       worst = std::max(worst, maxComponent(lost));
       // There is never more light than without the cutoff, but for the order of rounding.
@@ -126,9 +126,8 @@ TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
 // counts, with one just above it does not, and behind a mirror of reflectance 1/4 the same holds
 // for a quarter.
 TEST(LightCutoff, DecidesByTheContributionToThePixel) {
-  SceneBuilder builder;
-  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
-  builder.add(ceilingAt(4, 8, builder.add(mirrorMaterial(0.25f))));
+  SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 8);
+  builder.add(ceilingAt(4, 8), mirrorMaterial(0.25f));
   builder.description.lights.push_back(lightAt({0, 2, 0}, 8));
   const Scene scene = builder.build();
 

@@ -109,7 +109,7 @@ void forEachRay(const Scene& scene, const Image& image, const Visit& visit) {
 // Counts the pixels that differ by `bound` or more in a channel.
 inline std::size_t pixelsApart(const Image& a, const Image& b, float bound) {
   std::size_t apart = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+  for (const auto i : indices(a.pixels)) {
     apart += !(maxComponent(abs(a.pixels[i] - b.pixels[i])) < bound);
   }
   return apart;
@@ -119,7 +119,7 @@ inline std::size_t pixelsApart(const Image& a, const Image& b, float bound) {
 inline std::string firstDifference(const Image& a, const Image& b) {
   if (a.pixels.size() != b.pixels.size()) return "different sizes";
   const auto width = static_cast<std::size_t>(a.windowWidth());
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+  for (const auto i : indices(a.pixels)) {
     const Rgb &p = a.pixels[i], &q = b.pixels[i];
     if (std::memcmp(&p, &q, sizeof(Rgb)) == 0) continue;
     std::ostringstream text;

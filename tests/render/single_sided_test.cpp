@@ -22,7 +22,7 @@ void turn(Mesh& mesh) {
 std::uint32_t filtered(const Scene& scene) {
   std::uint32_t count = 0;
   for (const Geometry& g : scene.geometries) {
-    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (const auto c : indices(kTriangleClasses)) {
       if ((c & kMaskedBit) != 0) count += g.classBegin[c + 1] - g.classBegin[c];
     }
   }
@@ -63,7 +63,7 @@ TEST(SingleSided, CastShadowsFromBothSides) {
     if (turned) turn(roof);
 
     builder.add(roof);
-    builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
+    builder.add(floorAt(0, 1), diffuseMaterial(0.5f));
     builder.description.lights = {lightAt({0, 5, 0}, 10)};
     EXPECT_EQ(radianceAlong(builder.build(), {0.5, 0.5, 0}, {0, -1, 0}).x, 0) << turned;
   }
@@ -94,7 +94,7 @@ TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
   SceneBuilder pierced;
   Material net = singleSided(matt);
   net.alphaMap = pierced.add(dataMap(1, {0}));
-  pierced.add(box({0, 0, 0}, {1, 2, 3}, pierced.add(net)));
+  pierced.add(box({0, 0, 0}, {1, 2, 3}), net);
   EXPECT_FALSE(pierced.build().materials[0].doubleSided);
 }
 
@@ -117,7 +117,7 @@ Scene turnedTiles() {
   SceneBuilder builder;
   Material ground = diffuseMaterial(0.3f);
   ground.mirror = ground.mirrorGrazing = Rgb(0.5f);
-  builder.add(floorAt(-1, 8, builder.add(ground)));
+  builder.add(floorAt(-1, 8), ground);
   const std::int32_t holes = builder.add(dataMap(2, {0, 1}));
 
   return rowOfTiles(builder, [&](int i) {

@@ -81,7 +81,7 @@ Scene ballsOfEveryKind(int segments = 0) {
   builder.place(std::move(all),
                 {Affine(), Affine::translation({0.4, 1.3, -2.5}) * Affine::rotation({0, 1, 0}, 20) *
                                Affine::scaling({1, 1.2, -1})});
-  builder.add(floorAt(0, 6, builder.add(diffuseMaterial(0.5f))));
+  builder.add(floorAt(0, 6), diffuseMaterial(0.5f));
   builder.sky(0.4f);
   builder.description.lights = {lightAt({2, 5, 3}, 40)};
   builder.description.cameras = {{.eye = {0, 2.5f, 5}, .at = {0, 0.8f, 0}}};

@@ -40,7 +40,7 @@ void expectPicturesAgree(const std::string& name) {
                     inGlass ? kPartedInGlassPct : kPixelsGe2CodesPct);
 
   // The effect of arithmetic alone is seen where the rays of both hit the same surfaces.
-  for (std::size_t i = 0; i < diverged.size(); ++i) {
+  for (const auto i : indices(diverged)) {
     if (diverged[i]) packets.pixels[i] = reference.pixels[i];
   }
 

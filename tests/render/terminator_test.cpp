@@ -65,8 +65,9 @@ TEST(Terminator, H35_lessErrorWhereTheLightEnds) {
 
 TEST(Terminator, H35_anOccluderStillCastsItsShadow) {
   SceneBuilder builder = sphereSeenFrom({1.5f, 3, 2}, {256, 0, 0});
-  builder.add(quad({1.1f, -0.4f, 0.4f}, {1.1f, -0.4f, -0.4f}, {1.1f, 0.4f, -0.4f},
-                   {1.1f, 0.4f, 0.4f}, builder.add(blackMaterial())));
+  builder.add(
+      quad({1.1f, -0.4f, 0.4f}, {1.1f, -0.4f, -0.4f}, {1.1f, 0.4f, -0.4f}, {1.1f, 0.4f, 0.4f}),
+      blackMaterial());
   const Scene scene = builder.build();
 
   int shaded = 0;
@@ -89,8 +90,8 @@ TEST(Terminator, H35_flatFacesAreLeftAlone) {
   for (Vec3f& p : smooth.positions) p = p + Vec3f{0, 0, 50};
   builder.add(std::move(smooth));
 
-  builder.add(floorAt(-1, 20, builder.add(diffuseMaterial(0.7f))));
-  builder.add(box({-1, -1, -1}, {1, 0.3f, 0.7f}, builder.add(diffuseMaterial(0.4f))));
+  builder.add(floorAt(-1, 20), diffuseMaterial(0.7f));
+  builder.add(box({-1, -1, -1}, {1, 0.3f, 0.7f}), diffuseMaterial(0.4f));
   builder.description.lights.push_back(lightAt({2, 3, 1}, 20));
   builder.lookFrom({3, 2, 4});
 

@@ -40,7 +40,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
     for (const auto& [width, height] : sizes) {
       floor.diffuseMap = builder.add(numbered(width, height));
       builder.description.textures.back().wrapU = wrap;
-      builder.add(floorAt(0, 1, builder.add(floor)));
+      builder.add(floorAt(0, 1), floor);
     }
   }
 
@@ -48,7 +48,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
   ASSERT_EQ(tables.textures.size(), 3 * sizes.size());
 
-  for (std::size_t i = 0; i < tables.textures.size(); ++i) {
+  for (const auto i : indices(tables.textures)) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
     const Texture rows = numbered(record.width, record.height);
@@ -89,7 +89,7 @@ Scene maskedFloor(const std::vector<Texture>& maps) {
   floor.diffuseMap = 0;
   floor.alphaMap = static_cast<std::int32_t>(maps.size()) - 1;
   floor.alphaCutoff = 0.5f;
-  builder.add(floorAt(0, 1, builder.add(floor)));
+  builder.add(floorAt(0, 1), floor);
   return builder.build();
 }
 
@@ -128,12 +128,12 @@ Scene paintedOver(int width) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
   std::vector<std::uint32_t> texels(width);
-  for (std::size_t i = 0; i < texels.size(); ++i) {
+  for (const auto i : indices(texels)) {
     texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
   }
 
   floor.diffuseMap = builder.add(makeTexture(TexelFormat::color, width, 1, texels));
-  builder.add(floorAt(0, 1, builder.add(floor)));
+  builder.add(floorAt(0, 1), floor);
   return builder.build();
 }
 

@@ -51,7 +51,7 @@ SceneDescription textured() {
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 40, uv.y * 40};
   builder.add(floor);
   builder.add(quad({-6, 0, -8}, {-1, 0, -9}, {-1, 4, -9}, {-6, 4, -8}, waves));
-  builder.add(box({1, 1, -3}, {2.5f, 2, -2.5f}, builder.add(glassMaterial(1.5f))));
+  builder.add(box({1, 1, -3}, {2.5f, 2, -2.5f}), glassMaterial(1.5f));
 
   Object sign;
   sign.meshes = {quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, matt)};

@@ -44,7 +44,7 @@ class UsedStack : public testing::TestWithParam<int> {
   template <typename Columns>
   void aim(const Columns& rays) {
     const Vec3f middle = 0.5f * (scene_.lower + scene_.upper), size = scene_.upper - scene_.lower;
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (const auto i : indices(kRays)) {
       const float aside = 0.01f * size.x * static_cast<float>(i);
       test::setRay(rays, i, {middle.x + aside, scene_.upper.y + size.y, middle.z}, {0, 1, 0});
     }
@@ -99,7 +99,7 @@ TEST_P(UsedStack, IntersectionReturns) {
     useStack();
     Chunk chunk = chunkOf(coherent);
     findHits(chunk);
-    for (std::size_t i = 0; i < kRays; ++i) EXPECT_EQ(hits_->triangle[i], kMiss) << i;
+    for (const auto i : indices(kRays)) EXPECT_EQ(hits_->triangle[i], kMiss) << i;
   }
 }
 

@@ -29,12 +29,12 @@ Scene balls(const std::vector<Material>& materials) {
   SceneBuilder builder;
   builder.sky(1);
   builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
-  for (std::size_t i = 0; i < materials.size(); ++i) {
+  for (const auto i : indices(materials)) {
     const auto number = static_cast<int>(i);
     const Vec3d center{number % kBallsAcross - (kBallsAcross - 1) / 2.0,
                        number / kBallsAcross - (kBallsDown - 1) / 2.0, -8.0 * number};
     const Affine map = Affine::translation(center) * Affine::scaling(Vec3d(0.49));
-    builder.add(exactSphere(builder.add(materials[i]), map));
+    builder.add(exactSphere(0, map), materials[i]);
   }
 
   builder.lookFrom({0, 0, 50}).orthographicHeight = kBallsDown;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/index.h"
 #include "scene/mesh.h"
 
 namespace whit::test {
@@ -23,14 +24,14 @@ inline Vec3d areaVector(const Mesh& mesh, std::size_t t) {
 
 inline double area(const Mesh& mesh) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += length(areaVector(mesh, t)) / 2;
+  for (const auto t : indices(mesh.triangles)) sum += length(areaVector(mesh, t)) / 2;
   return sum;
 }
 
 // Uses the divergence theorem; the result is positive where the triangles face outwards.
 inline double volume(const Mesh& mesh) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (const auto t : indices(mesh.triangles)) {
     const auto [a, b, c] = corners(mesh, t);
     sum += dot(a, cross(b, c)) / 6;
   }
@@ -53,7 +54,7 @@ struct EdgeUse {
 inline auto edgesOf(const Mesh& mesh) {
   std::map<std::pair<PositionBits, PositionBits>, EdgeUse> edges;
   for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       const PositionBits a = bits(mesh.positions[t[k]]), b = bits(mesh.positions[t[(k + 1) % 3]]);
       EdgeUse& use = edges[std::minmax(a, b)];
       ++use.triangles;

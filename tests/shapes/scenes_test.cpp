@@ -38,7 +38,7 @@ TEST(Scenes, AtriumIsLargeAndCallsForItsEffects) {
   EXPECT_GE(scene.lights.size(), 2u);
   for (const Effect effect : {Effect::textures, Effect::normalMaps, Effect::alphaMasks,
                               Effect::mirror, Effect::sky, Effect::shadows}) {
-    EXPECT_TRUE(scene.effects.has(effect)) << kEffectNames[static_cast<std::size_t>(effect)].name;
+    EXPECT_TRUE(scene.effects.has(effect)) << nameOf(effect);
   }
 }
 

@@ -48,6 +48,7 @@ TEST(Shapes, SolidsAreClosedAndFaceOutwards) {
                 {"vase", "'profile': 'urn'"},
                 {"vase", "'profile': 'pot'"},
                 {"tumbler", ""},
+
                 {"wall", "'bays': 3"},
                 {"wall", "'sill': 0.8, 'bays': 2, 'margin': 0.5"},
                 {"wall", "'rise': 0"},

@@ -31,7 +31,7 @@ TEST(Bake, VertexColorsAreClampedAndWhiteWhereThereAreNone) {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(colored);
   Warnings warnings;
-  const Scene scene = finalized(std::move(d), &warnings);
+  const Scene scene = finalized(d, &warnings);
   ASSERT_EQ(scene.colors.size(), scene.triangles.size());
 
   for (const float channel : scene.colors[0].color) EXPECT_EQ(channel, 1);
@@ -41,7 +41,7 @@ TEST(Bake, VertexColorsAreClampedAndWhiteWhereThereAreNone) {
 
   SceneDescription white = sceneOf(square());
   white.objects[0].meshes[0].colors.assign(4, Rgb(1.0f));
-  EXPECT_TRUE(finalized(std::move(white)).colors.empty());
+  EXPECT_TRUE(finalized(white).colors.empty());
 }
 
 // Whole repeats are subtracted from each set of coordinates on its own.
@@ -53,14 +53,14 @@ TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
 
   d.objects[0].meshes.push_back(above(square()));
   Warnings warnings;
-  const Scene scene = finalized(std::move(d), &warnings);
+  const Scene scene = finalized(d, &warnings);
 
   ASSERT_EQ(scene.secondUvs.size(), scene.triangles.size());
   const float wanted[] = {0, 0, 0.5f, 0, 0, 20};
   EXPECT_TRUE(std::equal(wanted, wanted + 6, scene.uvsOf(0, true)));
   EXPECT_EQ(scene.uvsOf(0, false), scene.triangles[0].uv);
 
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(scene.uvsOf(2, true)[i], 0) << i;
+  for (const auto i : indices(6)) EXPECT_EQ(scene.uvsOf(2, true)[i], 0) << i;
   EXPECT_EQ(warned(warnings, "non-finite texture coordinate set to 0"), 1u);
   EXPECT_TRUE(finalized(square()).secondUvs.empty());
 }
@@ -72,7 +72,7 @@ TEST(Bake, RecordsAgreeWithTheGeometry) {
   d.instances.push_back({1, {}});
   d.instances.push_back({1, Affine::translation({0, 0, 4})});
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   ASSERT_EQ(scene.geometries.size(), 2u);
 
   std::size_t total = 0;
@@ -80,7 +80,7 @@ TEST(Bake, RecordsAgreeWithTheGeometry) {
     EXPECT_EQ(g.firstTriangle, total);
     EXPECT_EQ(g.classBegin.back(), g.index.size());
     EXPECT_GT(g.position.capacity(), g.position.size());
-    for (std::size_t i = 0; i < g.index.size(); ++i) {
+    for (const auto i : indices(g.index)) {
       for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(Vec3d(g.position[g.index[i][k]]), corner(scene.triangles[total + i], k));
       }
@@ -119,7 +119,7 @@ TEST(Bake, MirroredObjectsKeepTheirOutside) {
   mesh.normals.assign(4, {1, 0, 1e-6f});
   const Scene scene = finalized(placedAs(mesh, Affine::scaling({-1e3, 1, 1e-3})));
   ASSERT_EQ(scene.normals.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const auto i : indices(2)) {
     EXPECT_EQ(faceOf(scene.triangles[i]), (Vec3d{0, 0, 1}));
     // The inverse transpose gives (1 / -1e3, 0, 1e-6 * 1e3).
     EXPECT_FLOAT_EQ(normalOf(scene.normals[i], 0).x, -std::sqrt(0.5f));
@@ -160,7 +160,7 @@ TEST(Bake, ObjectsUsedMoreOftenAreInstanced) {
   d.instances.push_back({2, Affine::translation({0, 0, 5})});
   d.instances.push_back({2, Affine::translation({0, -3, 0}) * Affine::scaling({-1, 1, 1})});
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   ASSERT_EQ(scene.geometries.size(), 2u);
   EXPECT_EQ(scene.geometries[0].index.size(), 2u);
   EXPECT_EQ(scene.geometries[1].index.size(), 4u);
@@ -193,7 +193,7 @@ TEST(Bake, InstancedTrianglesAreCountedIn64Bits) {
   for (std::uint32_t i = 1; i < kInstances; ++i) {
     d.instances.push_back({0, Affine::translation({0, 0, 1.0 * i})});
   }
-  EXPECT_EQ(finalized(std::move(d)).instancedTriangles, std::uint64_t{kTriangles} * kInstances);
+  EXPECT_EQ(finalized(d).instancedTriangles, std::uint64_t{kTriangles} * kInstances);
 }
 
 TEST(Bake, GeometriesOfWhichNothingIsLeftTakeTheirInstancesAlong) {
@@ -203,7 +203,7 @@ TEST(Bake, GeometriesOfWhichNothingIsLeftTakeTheirInstancesAlong) {
   d.objects.push_back({"good", {square()}});
   for (const std::uint32_t object : {0u, 1u, 1u}) d.instances.push_back({object, {}});
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   ASSERT_EQ(scene.geometries.size(), 2u);
   ASSERT_EQ(scene.instances.size(), 2u);
   for (const InstanceRecord& i : scene.instances) EXPECT_EQ(i.geometry, 1u);
@@ -215,14 +215,14 @@ TEST(Bake, InstancesMayNotLeaveTheRangeOfCoordinates) {
   for (Vec3f& p : mesh.positions) p *= 1e10f;
   SceneDescription d = sceneOf(mesh);
   d.instances.push_back({0, Affine::scaling(Vec3d(1e9))});
-  expectError(ExitStatus::badScene, {"instance", "1.844e18"}, [&] { finalized(std::move(d)); });
+  expectError(ExitStatus::badScene, {"instance", "1.844e18"}, [&] { finalized(d); });
 }
 
 TEST(Bake, TrianglesAreSortedByClassAndKeepTheirOrder) {
   SceneDescription d = sceneOf(square());
   d.textures.push_back(whiteTexture(TexelFormat::data));
   d.materials.resize(4);  // material i makes class i
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (const auto i : indices(4)) {
     d.materials[i].castsShadow = (i & kNoShadowBit) == 0;
     if (i & kMaskedBit) d.materials[i].alphaMap = 0;
   }
@@ -237,7 +237,7 @@ TEST(Bake, TrianglesAreSortedByClassAndKeepTheirOrder) {
 
   d.objects[0].meshes = {mesh, square(), above(mesh)};
   d.objects[0].meshes[1].materials = {2};
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   const Geometry& g = scene.geometries[0];
   EXPECT_EQ(g.classBegin, (std::array<std::uint32_t, 5>{0, 6, 12, 20, 26}));
 

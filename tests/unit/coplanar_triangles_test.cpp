@@ -49,10 +49,10 @@ std::vector<Mesh> box(const Vec3d& corner, const Vec3d& size) {
 class Builder {
  public:
   void add(const std::vector<Mesh>& meshes, const std::vector<Affine>& places = {Affine{}}) {
-    const auto object = static_cast<std::uint32_t>(description_.objects.size());
+    const auto object = size32(description_.objects);
     description_.objects.push_back({"object", meshes});
     for (Mesh& mesh : description_.objects.back().meshes) {
-      mesh.materials = {static_cast<std::uint32_t>(description_.materials.size())};
+      mesh.materials = {size32(description_.materials)};
       description_.materials.emplace_back().name = std::to_string(description_.materials.size());
     }
 
@@ -151,8 +151,8 @@ Partners byDefinition(const Scene& scene) {
 
   // A triangle overlaps if the common part is wider than the rounding, and touches if there is no
   // gap wider than the rounding.
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < all.size(); ++k) {
+  for (const auto i : indices(all)) {
+    for (const auto k : indices(all)) {
       if (i == k || !inOnePlane(all[i], all[k])) continue;
       const double width = commonWidth(all[i], all[k]), tolerance = all[i].error + all[k].error;
       if (width > tolerance) overlaps[i] = true;
@@ -161,14 +161,14 @@ Partners byDefinition(const Scene& scene) {
   }
 
   // Triangles that touch an overlapping one are coplanar as well.
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const auto i : indices(all)) {
     if (!overlaps[i]) continue;
     coplanar[i] = true;
     for (const std::size_t k : touching[i]) coplanar[k] = true;
   }
 
   Partners partners(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const auto i : indices(all)) {
     for (const std::size_t k : touching[i]) {
       if (coplanar[i] && coplanar[k]) partners[i].push_back(all[k].id);
     }
@@ -187,7 +187,7 @@ Partners partnersIn(const CoplanarTriangles& found, const Scene& scene) {
 
 std::string textOf(const Partners& partners) {
   std::string text;
-  for (std::size_t i = 0; i < partners.size(); ++i) {
+  for (const auto i : indices(partners)) {
     if (partners[i].empty()) continue;
     text += std::to_string(i) + ":";
     for (const PlacedTriangleId p : partners[i]) {
@@ -208,7 +208,7 @@ std::size_t expectAsDefined(const Scene& scene) {
   std::vector<bool> any(scene.triangles.size());
   std::size_t coplanar = 0;
   const std::vector<PlacedTriangleId> all = allOf(scene);
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const auto i : indices(all)) {
     coplanar += !wanted[i].empty();
     if (!wanted[i].empty()) any[all[i].triangle] = true;
   }

@@ -7,6 +7,8 @@
 
 #include <thread>
 
+#include "core/index.h"
+
 namespace whit {
 namespace {
 
@@ -19,7 +21,7 @@ void touchPages(std::size_t pages) {
       mmap(nullptr, pages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
   madvise(memory, pages * kPage, MADV_NOHUGEPAGE);
-  for (std::size_t i = 0; i < pages; ++i) static_cast<volatile char*>(memory)[i * kPage] = 1;
+  for (const auto i : indices(pages)) static_cast<volatile char*>(memory)[i * kPage] = 1;
   munmap(memory, pages * kPage);
 }
 

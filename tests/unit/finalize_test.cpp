@@ -34,7 +34,7 @@ TEST(Finalize, MediaAreNumberedOncePerDielectricInUse) {
   mesh.triangles.assign(5, {0, 1, 2});
   mesh.materials = {0, 1, 2, 3, 4};
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   EXPECT_EQ(scene.mediumOfMaterial, (std::vector<std::uint8_t>{0, 1, 2, 1, 3, 0}));
   ASSERT_EQ(scene.media.size(), 4u);
   EXPECT_EQ(scene.media[0].ior, 1);
@@ -70,7 +70,7 @@ TEST(Finalize, SuppliedCameraSeesAllOfTheScene) {
     d.width = width;
     d.height = height;
 
-    const Scene scene = finalized(std::move(d));
+    const Scene scene = finalized(d);
     ASSERT_EQ(scene.cameras.size(), 1u);
     std::vector<Vec3d> corners;
     for (int i = 0; i < 8; ++i) {
@@ -96,7 +96,7 @@ TEST(Finalize, CamerasOfTheSceneComeFirst) {
 TEST(Finalize, MemoryIsCounted) {
   SceneDescription d = sceneOf(square());
   d.textures.push_back(whiteTexture(TexelFormat::data));
-  EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 4 + 12u);
+  EXPECT_EQ(finalized(d).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 4 + 12u);
 }
 
 }  // namespace

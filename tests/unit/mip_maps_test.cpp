@@ -108,7 +108,7 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
   }
 
   m.emission = m.specular = Rgb(0.5f);
-  builder.add(verify::floorAt(0, 1, builder.add(m)));
+  builder.add(verify::floorAt(0, 1), m);
   const Scene scene = builder.build();
   const MipMaps maps(scene);
 

@@ -24,7 +24,7 @@ SceneDescription plate(const Affine& turn) {
 }
 
 // Returns a box of this half size, whose fronts look inwards if it is a room.
-Mesh box(const Vec3f& half, bool room) {
+Mesh box(const Vec3f& half, bool room = false) {
   Mesh mesh = verify::box(-half, half, 0);
   for (auto& [a, b, c] : mesh.triangles) {
     if (room) std::swap(b, c);
@@ -42,7 +42,7 @@ const Vec3f kRoom{4, 1.5f, 3};
 SceneDescription room() { return sceneOf(box(kRoom, true)); }
 
 TEST(ModelViews, ABodyIsSeenFromTheFrontTheRightAndAbove) {
-  const Vec3d eye = towardsEye(sceneOf(box({1, 1, 1}, false)));
+  const Vec3d eye = towardsEye(sceneOf(box({1, 1, 1})));
   EXPECT_GT(eye.z, eye.x);
   EXPECT_GT(eye.x, 0);
   EXPECT_GT(eye.y, 0);
@@ -71,10 +71,10 @@ TEST(ModelViews, TheModelFillsThePicture) {
   const Affine place = Affine::translation({100, -20, 7});
   for (const Vec3f& half : {Vec3f{1, 1, 1}, Vec3f{5, 0.2f, 1}, Vec3f{0.1f, 3, 0.1f}}) {
     for (const int width : {480, 100}) {
-      SceneDescription scene = placedAs(box(half, false), place);
+      SceneDescription scene = placedAs(box(half), place);
       scene.width = width;
       std::vector<Vec3d> corners;
-      for (const Vec3f& p : box(half, false).positions) corners.push_back(place.point(Vec3d(p)));
+      for (const Vec3f& p : box(half).positions) corners.push_back(place.point(Vec3d(p)));
 
       const double farthest =
           farthestInPicture(makeCameraFrame(viewOf(scene).camera, width, scene.height), corners);
@@ -98,7 +98,7 @@ TEST(ModelViews, AClosedRoomIsSeenFromInside) {
 // The eye avoids furniture.
 TEST(ModelViews, ARoomMayBeFurnished) {
   SceneDescription scene = sceneOf(box({4, 2, 4}, true));
-  scene.objects[0].meshes.push_back(box({0.5f, 2, 0.5f}, false));
+  scene.objects[0].meshes.push_back(box({0.5f, 2, 0.5f}));
   for (Vec3f& p : scene.objects[0].meshes[1].positions) p += Vec3f(3.4f, 0, 3.4f);
   const ModelView view = viewOf(scene);
   EXPECT_TRUE(view.inside);
@@ -106,7 +106,7 @@ TEST(ModelViews, ARoomMayBeFurnished) {
 }
 
 TEST(ModelViews, NothingElseIsARoom) {
-  EXPECT_FALSE(viewOf(sceneOf(box({4, 2, 3}, false))).inside) << "a body";
+  EXPECT_FALSE(viewOf(sceneOf(box({4, 2, 3}))).inside) << "a body";
   for (int face = 0; face < 6; ++face) {
     Mesh open = box({2, 2, 2}, true);
     const auto first = open.triangles.begin() + 2 * face;
@@ -173,7 +173,7 @@ TEST(ModelViews, TheSideCanBeChosen) {
   scene.viewpoint = Viewpoint::outside;
   EXPECT_GT(viewOf(scene).camera.eye.z, 3);
 
-  scene.objects[0].meshes[0] = box(kRoom, false);
+  scene.objects[0].meshes[0] = box(kRoom);
   scene.viewpoint = Viewpoint::inside;
   const ModelView view = viewOf(scene);
   EXPECT_TRUE(view.inside);
@@ -182,7 +182,7 @@ TEST(ModelViews, TheSideCanBeChosen) {
 
 // The azimuth turns the usual view about the vertical axis, and leaves its height.
 TEST(ModelViews, TheAzimuthCanBeChosen) {
-  SceneDescription scene = sceneOf(box({1, 1, 1}, false));
+  SceneDescription scene = sceneOf(box({1, 1, 1}));
   const double height = towardsEye(scene).y;
   for (const double degrees : {0.0, 30.0, 90.0, 180.0, -135.0}) {
     scene.azimuth = degrees;
@@ -195,11 +195,11 @@ TEST(ModelViews, TheAzimuthCanBeChosen) {
 }
 
 TEST(ModelViews, ZoomDividesTheDistance) {
-  SceneDescription scene = sceneOf(box({1, 2, 3}, false));
+  SceneDescription scene = sceneOf(box({1, 2, 3}));
   const auto distances = [&](double zoom) {
     scene.zoom = zoom;
     const ModelView view = viewOf(scene);
-    EXPECT_EQ(view.camera.at, viewOf(sceneOf(box({1, 2, 3}, false))).camera.at);
+    EXPECT_EQ(view.camera.at, viewOf(sceneOf(box({1, 2, 3}))).camera.at);
     const Turntable turn = aroundModel(scene, view, 48, 30);
     return std::array{length(Vec3d(view.camera.eye) - Vec3d(view.camera.at)),
                       length(Vec3d(turn.camera.eye) - turn.pivot)};

@@ -73,7 +73,7 @@ TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
     SceneDescription description = sceneOf(mesh);
     description.materials[0].transmission = Rgb(glass ? 1.0f : 0.0f);
     Warnings warnings;
-    const Scene scene = finalized(std::move(description), &warnings);
+    const Scene scene = finalized(description, &warnings);
 
     EXPECT_EQ(scene.triangles.size(), 2u + (glass ? 3 : 1));
     EXPECT_EQ(warned(warnings, "triangle in the place of another of its material dropped"),
@@ -95,7 +95,7 @@ TEST(Repairing, MaskedTrianglesInEachOthersPlaceAreDroppedIfTheirHolesAreInOnePl
       if (masked) description.materials[0].alphaMap = 0;
 
       // Both triangles of a square have the corner that differs.
-      EXPECT_EQ(finalized(std::move(description)).triangles.size(), masked ? 4u : 2u);
+      EXPECT_EQ(finalized(description).triangles.size(), masked ? 4u : 2u);
     }
   }
 }
@@ -128,7 +128,7 @@ TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
   d.objects[0].meshes.push_back(above(square()));  // its vertices must not be reached
 
   Warnings warnings;
-  EXPECT_EQ(finalized(std::move(d), &warnings).triangles.size(), 4u);
+  EXPECT_EQ(finalized(d, &warnings).triangles.size(), 4u);
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
 }
 
@@ -160,7 +160,7 @@ TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
     d.textures[0].wrapV = wrapV;
     d.materials[0].diffuseMap = 0;
     d.materials[0].alphaMap = 1;
-    const Scene scene = finalized(std::move(d));
+    const Scene scene = finalized(d);
     return Uv(scene.triangles[0].uv, scene.triangles[0].uv + 6);
   };
 
@@ -199,7 +199,7 @@ TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(smooth);
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   ASSERT_EQ(scene.normals.size(), 4u);
   EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0, 1}));
   EXPECT_FLOAT_EQ(normalOf(scene.normals[2], 1).x, std::sqrt(0.5f));
@@ -231,7 +231,7 @@ TEST(Repairing, GarbageNeverReachesTheTables) {
     SceneDescription d = sceneOf(mesh);
     d.textures.push_back(whiteTexture(TexelFormat::color));
     d.materials[0].diffuseMap = 0;
-    const Scene scene = finalized(std::move(d));
+    const Scene scene = finalized(d);
 
     ASSERT_TRUE(isFinite(scene.lower) && isFinite(scene.upper));
     for (const TriangleRecord& t : scene.triangles) {

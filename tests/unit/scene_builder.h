@@ -9,6 +9,7 @@
 
 #include "bake/scene.h"
 #include "core/error.h"
+#include "has_text.h"
 
 namespace whit::test {
 
@@ -91,10 +92,7 @@ void expectError(ExitStatus status, const std::vector<std::string>& parts, const
     ADD_FAILURE() << "expected an error";
   } catch (const Error& e) {
     EXPECT_EQ(e.status(), status) << e.what();
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(e.what()).find(part), std::string::npos)
-          << "'" << e.what() << "' lacks '" << part << "'";
-    }
+    for (const std::string& part : parts) EXPECT_TRUE(hasText(e.what(), part));
   }
 }
 

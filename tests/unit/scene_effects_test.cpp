@@ -10,9 +10,7 @@ namespace {
 
 using namespace test;
 
-const EffectReason& reason(const Scene& scene, Effect e) {
-  return scene.reasons[static_cast<std::size_t>(e)];
-}
+const EffectReason& reason(const Scene& scene, Effect e) { return entryOf(scene.reasons, e); }
 
 std::int32_t addTexture(SceneDescription& d, TexelFormat format) {
   d.textures.push_back(whiteTexture(format));
@@ -201,10 +199,10 @@ TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
 TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
   EXPECT_EQ(rules().size(), static_cast<std::size_t>(kEffectCount));
   for (const Rule& rule : rules()) {
-    SCOPED_TRACE(kEffectNames[static_cast<std::size_t>(rule.effect)].name);
+    SCOPED_TRACE(nameOf(rule.effect));
     SceneDescription d = plainScene();
     rule.add(d, d.materials[0]);
-    const Scene scene = finalized(std::move(d));
+    const Scene scene = finalized(d);
     EffectSet expected = EffectSet().with(rule.effect);
     for (const Effect effect : rule.also) expected = expected.with(effect);
     EXPECT_EQ(scene.effects.bits(), expected.bits());
@@ -219,7 +217,7 @@ TEST(SceneEffects, MapsOfRoughnessAreTexturesWhereThereIsALobe) {
     SceneDescription d = plainScene();
     d.materials[0].specular = Rgb(specular);
     d.materials[0].roughnessMap = addTexture(d, TexelFormat::data);
-    EXPECT_EQ(finalized(std::move(d)).effects.has(Effect::textures), specular > 0);
+    EXPECT_EQ(finalized(d).effects.has(Effect::textures), specular > 0);
   }
 }
 
@@ -227,7 +225,7 @@ TEST(SceneEffects, ACameraPathMayHaveAnAperture) {
   SceneDescription d = plainScene();
   d.cameraPath.resize(1);
   d.cameraPath[0].camera.aperture = 0.5f;
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   // The scene has no camera but the first one of the path.
   EXPECT_EQ(reason(scene, Effect::depthOfField).because, "the camera path has an aperture");
   EXPECT_EQ(scene.effects, EffectSet().with(Effect::depthOfField));
@@ -247,7 +245,7 @@ TEST(SceneEffects, UnusedMaterialsDoNotCount) {
   mesh.triangles.push_back({0, 0, 1});
   mesh.materials = {0, 0, 2};
 
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   EXPECT_EQ(scene.effects, EffectSet());
   EXPECT_EQ(scene.media.size(), 1u);
 }
@@ -258,7 +256,7 @@ TEST(SceneEffects, CountsMaterialsAndTriangles) {
   d.materials[1].mirror = d.materials[2].mirror = Rgb(0.5f);
   d.objects[0].meshes[0].materials = {1, 2};
   EXPECT_EQ(
-      reason(finalized(std::move(d)), Effect::mirror).because,
+      reason(finalized(d), Effect::mirror).because,
       "2 materials with a mirror, a smooth lobe or a reflecting dielectric, 2 triangles use them");
 }
 
@@ -276,7 +274,7 @@ TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
 
   d.sky.scale = 1;
   d.sky.image.b = {0, 0};
-  const Scene scene = finalized(std::move(d));
+  const Scene scene = finalized(d);
   EXPECT_EQ(scene.effects, EffectSet());
   EXPECT_EQ(reason(scene, Effect::lights).because, "every light is black");
 }

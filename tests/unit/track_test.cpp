@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/index.h"
 #include "pi.h"
 
 namespace whit {
@@ -32,7 +33,7 @@ Track turning(const std::vector<double>& from, const std::vector<double>& to) {
 
 void expectValues(const std::vector<double>& a, const std::vector<double>& b) {
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kTrackRounding) << i;
+  for (const auto i : indices(a)) EXPECT_NEAR(a[i], b[i], kTrackRounding) << i;
 }
 
 using Values = std::vector<double>;

@@ -87,14 +87,14 @@ TEST(Validate, RefusesNamingTheThingAtFault) {
     SCOPED_TRACE(r.name);
     SceneDescription d = sceneOf(square());
     r.spoil(d);
-    expectError(ExitStatus::badScene, r.parts, [&] { finalized(std::move(d)); });
+    expectError(ExitStatus::badScene, r.parts, [&] { finalized(d); });
   }
 }
 
 TEST(Validate, TinyTransformsAreNotSingular) {
   SceneDescription d = sceneOf(square());
   d.instances[0].toWorld = Affine::scaling(Vec3d(1e-12));
-  EXPECT_EQ(finalized(std::move(d)).triangles.size(), 2u);
+  EXPECT_EQ(finalized(d).triangles.size(), 2u);
 }
 
 }  // namespace

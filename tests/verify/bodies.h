@@ -38,12 +38,6 @@ inline Mesh grid() {
   return sheetOf(65, 65, [](int x, int y) { return Vec3f(Vec3d(x - 32, 0, y - 32)); });
 }
 
-inline Scene sceneOf(Mesh mesh, const Material& material) {
-  SceneBuilder builder;
-  builder.add(std::move(mesh), material);
-  return builder.build();
-}
-
 inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
   return {origin, Vec3f(normalized(Vec3d(target) - Vec3d(origin)))};
 }
@@ -65,8 +59,5 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, int n,
     return rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius)));
   });
 }
-
-// Camera that looks down from 3 above the origin.
-inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
 
 }  // namespace whit::verify

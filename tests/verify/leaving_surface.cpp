@@ -154,10 +154,7 @@ void eyeInAPlane(Run& run) {
   constexpr float kSky = 0.25f;
 
   for (const float height : {0.0f, 0.1f, 1000.1f, -3e6f}) {
-    SceneBuilder builder;
-    builder.add(floorAt(height, 10), emittingMaterial(1));
-    builder.sky(kSky);
-    const Scene scene = builder.build();
+    const Scene scene = sceneOf(floorAt(height, 10), emittingMaterial(1), kSky);
 
     for (const Vec3f& towards : {Vec3f(1, 0, 0.2f), Vec3f(0.1f, 1, 0), Vec3f(0, -1, 0.1f),
                                  Vec3f(0.3f, 0.7f, -1), Vec3f(-1, -0.4f, 0.2f)}) {

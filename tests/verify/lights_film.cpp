@@ -15,18 +15,17 @@ void lightsAtNoDistance(Run& run) {
     SceneBuilder builder;
     Material m = diffuseMaterial(1);
     m.specular = Rgb(0.5f);
-    builder.add(m);
-    builder.add(floorAt(0, 1, 0));
+    builder.add(floorAt(0, 1), m);
 
     builder.description.lights = {lightAt({0, height, 0}, 1)};
     builder.description.lights[0].radius = 1e-3f;
-    const Scene scene = builder.build();
 
     // The center of the middle pixel shows the point below the light.
     // I / radius^2 (kd / pi + the lobe's peak at normal incidence, 0.5 / (4 pi alpha^2) with
     // roughness 0.5) is an upper bound on the reflected light.
     const float most = 1e6f * (0.32f + 0.5f / (12.5f * 0.0625f));
-    for (const Rgb& pixel : pictureOf(scene, lookingDown(), optionsOf(run, {33, 33})).pixels) {
+    for (const Rgb& pixel :
+         pictureOf(builder.build(), lookingDown(), optionsOf(run, {33, 33})).pixels) {
       run.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > most, "height ", height);
     }
   }
@@ -39,10 +38,9 @@ void lightInABox(Run& run) {
   builder.add(floorAt(-0.5f, 8, gray));
   builder.description.lights = {lightAt({0.3f, 1.2f, -0.2f}, 100),
                                 lightAt({0.999f, 0.001f, 0}, 100)};
-  const Scene scene = builder.build();
 
   const Camera camera{.eye = {3, 4, 5}, .at = {0, 1, 0}};
-  for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(run, {48, 36})).pixels) {
+  for (const Rgb& pixel : pictureOf(builder.build(), camera, optionsOf(run, {48, 36})).pixels) {
     run.count(!(pixel == Rgb()), pixel);
   }
 }

@@ -132,10 +132,7 @@ void stackCountsSpheres(Run& run) {
 void eyeInGlass(Run& run) {
   // Facets are up to 2 degrees off, where F differs from 0.04 by 1e-6.
   run.boundBy(1e-5);
-  SceneBuilder builder;
-  builder.add(sphereMesh(4, {}, 1), glassMaterial(1.5f));
-  builder.sky(1);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(sphereMesh(4, {}, 1), glassMaterial(1.5f), 1);
   const Camera camera{.eye = {0, 0, 0}, .at = {0.3f, 0.2f, -1}};
 
   for (const int depth : {1, 4}) {
@@ -254,17 +251,13 @@ void sheetsInWater(Run& run) {
 void whiteRim(Run& run) {
   // The normals are smooth; between flat facets total reflection really keeps rays inside.
   run.boundBy(1e-4);
-  SceneBuilder builder;
-  builder.add(sphereMesh(5, {}, 1, 0, true), glassMaterial(1.5f));
-  builder.sky(1);
-
+  const Scene scene = sceneOf(sphereMesh(5, {}, 1, 0, true), glassMaterial(1.5f), 1);
   RenderOptions options = optionsOf(run, {32, 32});
   options.depth = 16;
   options.cutoff = 1e-5f;
 
   double mean = 0;
-  for (const Rgb& pixel :
-       pictureOf(builder.build(), {.eye = {0, 0, 5}, .fov = 26}, options).pixels) {
+  for (const Rgb& pixel : pictureOf(scene, {.eye = {0, 0, 5}, .fov = 26}, options).pixels) {
     mean += double{pixel.x} / (32 * 32);
     if (pixel.x > 1.00001f) run.note(1, "brighter than white");
   }

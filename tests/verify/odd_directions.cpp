@@ -38,7 +38,6 @@ void coplanarRays(Run& run) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
 
   std::vector<ProbeRay> rays{{{-1, 0.25f, 0}, {1, 0, 0}},
                              {{0.25f, 0.25f, 0}, {1, 0, 0}},
@@ -52,7 +51,7 @@ void coplanarRays(Run& run) {
                     Vec3f(Vec3d{std::cos(turn), std::sin(turn), 0})});
   }
 
-  countHits(run, Probe(scene, run, rays), false);
+  countHits(run, Probe(sceneOf(mesh, diffuseMaterial(1)), run, rays), false);
 }
 
 // Needles with edges of 11.2, 9.7 and 1.4 at a distance of 600, seen almost along their plane. The

@@ -124,7 +124,7 @@ inline Scene repaired(SceneDescription description, Warnings* warnings = nullptr
 
 // The corners are counter-clockwise from outside; uv covers the unit square from the first corner.
 inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
-                 std::uint32_t material) {
+                 std::uint32_t material = 0) {
   Mesh mesh;
   mesh.positions = {a, b, c, d};
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -189,6 +189,17 @@ inline Mesh exactSphere(std::uint32_t material = 0, const Affine& map = {}) {
   mesh.materials = {material};
   return mesh;
 }
+
+// The mesh of one material, under a sky of this radiance if it is not black.
+inline Scene sceneOf(Mesh mesh, const Material& material, float radiance = 0) {
+  SceneBuilder builder;
+  builder.add(std::move(mesh), material);
+  if (radiance > 0) builder.sky(radiance);
+  return builder.build();
+}
+
+// Camera that looks down from 3 above the origin.
+inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
 
 // A fixed sequence of numbers, the same on every machine.
 class Numbers {

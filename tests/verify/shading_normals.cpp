@@ -38,10 +38,14 @@ std::vector<Tilted> tilted(std::uint64_t seed, double tilt, double flattest) {
 
 Scene oneMaterial(const Material& material) { return sceneOf(floorAt(0, 1), material); }
 
-// A probe that has these surfels.
-struct TiltedProbe : Probe {
-  TiltedProbe(const Scene& scene, const Setup& setup, const std::vector<Tilted>& surfels)
-      : Probe(scene, setup) {
+struct OneMaterial {
+  Scene scene;
+};
+
+// A probe that has these surfels, of one material.
+struct TiltedProbe : private OneMaterial, Probe {
+  TiltedProbe(const Material& material, const Setup& setup, const std::vector<Tilted>& surfels)
+      : OneMaterial{oneMaterial(material)}, Probe(scene, setup) {
     std::vector<ProbeRay> rays;
     for (const Tilted& surfel : surfels) rays.push_back(surfel.ray);
     load(rays);
@@ -52,10 +56,9 @@ struct TiltedProbe : Probe {
 // The distance of child rays below the least elevation, in units in the last place of 1.
 void childrenStayOnTheirSide(Run& run) {
   run.boundBy(4);
-  const Scene scene = oneMaterial(glassMaterial(1.5f));
   const std::vector<Tilted> surfels = tilted(32, 1.0, 3);
 
-  TiltedProbe probe(scene, run, surfels);
+  TiltedProbe probe(glassMaterial(1.5f), run, surfels);
   for (const auto& [ray, weight, parent] : probe.reflections()) {
     const double facing = -surfels[parent].ray.direction.y, least = std::min(0.9 * facing, 0.01);
     // Normalization lowers a direction that was raised, by up to the square of how far it was
@@ -71,9 +74,8 @@ void childrenStayOnTheirSide(Run& run) {
 // If the normals agree, the rule for tilted normals must not change the mirrored direction.
 void agreeingNormals(Run& run) {
   run.boundBy(4 * 0x1p-24);
-  const Scene scene = oneMaterial(mirrorMaterial(1));
   const std::vector<Tilted> surfels = tilted(33, 0, 5);
-  TiltedProbe probe(scene, run, surfels);
+  TiltedProbe probe(mirrorMaterial(1), run, surfels);
 
   for (const auto& [ray, weight, parent] : probe.reflections()) {
     const Vec3d in(surfels[parent].ray.direction), out(ray.direction);
@@ -90,9 +92,8 @@ Material everything() {
 
 // Views from behind the shading normal: weights in [0, 1], unit directions, no negative light.
 void viewBehindTheNormal(Run& run) {
-  const Scene scene = oneMaterial(everything());
   const std::vector<Tilted> surfels = tilted(34, 3.1, 6);
-  TiltedProbe probe(scene, run, surfels);
+  TiltedProbe probe(everything(), run, surfels);
 
   for (const auto& children : {probe.reflections(), probe.refractions()}) {
     for (const auto& [ray, weight, parent] : children) {
@@ -160,9 +161,8 @@ void terminator(Run& run) {
 
 // Lights in front of one normal and behind the other.
 void lightBetweenTheNormals(Run& run) {
-  const Scene scene = oneMaterial(everything());
   const std::vector<Tilted> surfels = tilted(36, 1.5, 1);
-  TiltedProbe probe(scene, run, surfels);
+  TiltedProbe probe(everything(), run, surfels);
 
   Numbers numbers(36);
   for (int k = 0; k < 16; ++k) {

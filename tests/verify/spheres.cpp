@@ -289,11 +289,8 @@ constexpr double kAway = 0x1p-9;
 // Counts the pixels that look away from the ball and do not show the sky.
 void lookAway(Run& run, const Ball& ball, const Camera& camera) {
   constexpr float kSky = 0.25f;
-  SceneBuilder builder;
-  builder.add(ball.mesh(), emittingMaterial(1));
-  builder.sky(kSky);
-
-  const Image image = pictureOf(builder.build(), camera, optionsOf(run, {24, 18}));
+  const Scene scene = sceneOf(ball.mesh(), emittingMaterial(1), kSky);
+  const Image image = pictureOf(scene, camera, optionsOf(run, {24, 18}));
   const Vec3d out = normalized(Vec3d(camera.eye) - Vec3d(ball.center));
 
   forEachRay(camera, image.width, image.height, [&](const Vec3d&, const Vec3d& d, int x, int y) {

@@ -55,8 +55,7 @@ constexpr int kEdgeRays = 4000;
 
 // Counts the rays from inside a closed mesh that miss.
 void misses(Run& run, const Mesh& mesh, const std::vector<ProbeRay>& rays) {
-  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  countHits(run, Probe(scene, run, rays), true);
+  countHits(run, Probe(sceneOf(mesh, diffuseMaterial(1)), run, rays), true);
 }
 
 const Vec3d kFar{148376, 1234, -223423};
