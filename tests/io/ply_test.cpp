@@ -280,10 +280,10 @@ TEST_F(Ply, WhatIsLeftOutIsCounted) {
            "1; texture left out (1 from *"},
           {ascii(kTriangleHeader) + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2 9 1 1 1\n",
            "1; values that no property of the header names left out (2 from m.ply:11)"},
-          {ascii(std::string("comment TextureFile t.tga\n") + kTriangleHeader +
-                 "property list uchar float texcoord\nproperty int texnumber\n") +
-               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1 1\n",
-           "1; face with the number of a picture that is not there (1 from m.ply:17)"},
+          {ascii(std::string("comment TextureFile t.tga\ncomment TextureFile t.tga\n") +
+                 kTriangleHeader + "property list uchar float texcoord\nproperty int texnumber\n") +
+               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1 2\n",
+           "1; face with the number of a picture that is not there (1 from m.ply:18)"},
           {ascii(vertex) + "0 0 0\n", "0; model with nothing to draw: no faces (1 from m.ply)"},
           {replaced(ascii(vertex), "vertex 1", "vertex 0"),
            "0; model with nothing to draw: no vertices (1 from m.ply)"},
