@@ -4,6 +4,7 @@
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "io/scene_files.h"
+#include "source_files.h"
 #include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
 
@@ -177,40 +178,10 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   EXPECT_EQ(jsonIn("m-edited-2.json")["sky"]["image"], "sky.exr");
 }
 
-// Returns a box of sides 1, 1 and 3 along z, as the text of an STL file.
-std::string tallBoxStl() {
-  std::string text = "solid box\n";
-  const auto corner = [&](std::array<int, 3> p) {
-    text += "vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
-            std::to_string(3 * p[2]) + "\n";
-  };
-
-  // The sides at 0 and 1 of each axis; (u, v) turn to the left seen from outside.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const int end : {0, 1}) {
-      const auto at = [&](int u, int v) {
-        std::array<int, 3> p{};
-        p[axis] = end;
-        p[(axis + 1) % 3] = end == 1 ? u : v;
-        p[(axis + 2) % 3] = end == 1 ? v : u;
-        corner(p);
-      };
-      for (const auto& [u, v] : {std::pair{1, 0}, {0, 1}}) {
-        text += "facet normal 0 0 0\nouter loop\n";
-        at(0, 0);
-        at(1, v);
-        at(u, 1);
-        text += "endloop\nendfacet\n";
-      }
-    }
-  }
-  return text + "endsolid box\n";
-}
-
 // The reader turns a model alone upright, but not an item of a scene.
 TEST_F(SavedScenes, OfATurnedModelHoldItUpright) {
-  save("box.stl", tallBoxStl());
-  scene_ = {"box.stl"};
+  save("tetra.stl", sourceText("tests/fuzz/corpus/stl/tetra.stl"));
+  scene_ = {"tetra.stl"};
   for (const Words& options : {Words{}, {"--up", "y"}, {"--up", "x"}}) {
     const Words lines = commandsOf(1, "bare\nasked\nwait sharp\nscreenshot shown.png\nkey Ctrl+S\n",
                                    "120x75", options);
