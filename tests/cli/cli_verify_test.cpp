@@ -21,14 +21,12 @@ class Verify : public TinySceneTest {
   // Runs whit-verify in the folder, with scenes of hard cases that take little time, and without
   // real scenes.
   Outcome verify(const std::string& line) const {
-    const TemporaryFolder said;
     const auto prepare = [&] {
       (void)chdir(folder_.path().c_str());
       setenv("WHIT_SCENES", folder_.path().c_str(), 1);
       unsetenv("WHIT_DATA");
     };
-    const int status = waitFor(startWhit(split(line), said, prepare, WHIT_VERIFY_PROGRAM));
-    return {status, readFile(said / "stdout"), readFile(said / "stderr")};
+    return runWhit(split(line), prepare, WHIT_VERIFY_PROGRAM);
   }
 };
 

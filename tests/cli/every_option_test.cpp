@@ -5,6 +5,7 @@
 
 #include "core/option_table.h"
 #include "io/image/image_layers.h"
+#include "io/member_rows.h"
 #include "run_here.h"
 #include "simd/kernels.h"
 
@@ -16,28 +17,17 @@ using Names = std::set<std::string>;
 class EveryOption : public TinySceneTest {
  protected:
   EveryOption() {
-    // Something for every option to change: a path, a sky, a soft light, textures, vertex normals
-    // and one surface each that is matte, transparent, glossy, and a mirror with a normal map.
-    save("all.json", R"({"whit": 1, "size": [36, 24],
-      "cameras": {"front": {"eye": [0, 1.6, 5], "at": [0, 0.7, 0], "fov": 45},
-                  "side": {"eye": [5, 1.6, 0], "at": [0, 0.7, 0], "fov": 45}},
-      "path": [{"time": 0, "eye": [0, 1.6, 5], "at": [0, 0.7, 0]}, {"time": 1, "eye": [3, 1.6, 4]}],
-      "sky": {"zenith": [0.2, 0.4, 0.9], "horizon": [1, 0.9, 0.8], "ground": [0.3, 0.2, 0.1]},
-      "ambient": {"color": 0.3, "occlusion": 1},
-      "lights": [{"position": [2, 4, 3], "intensity": [60, 50, 40], "radius": 0.4}],
-      "textures": {"checker": {"pattern": "checker", "columns": 16, "rows": 16, "size": 64},
-                   "dents": {"pattern": "bricksNormals", "size": 64, "depth": 0.05}},
-      "materials": {"floor": {"diffuse": 1, "diffuseMap": "checker"},
-                    "glass": {"diffuse": 0, "transmission": 0.9, "ior": 1.5},
-                    "glossy": {"diffuse": 0.3, "specular": 0.5, "roughness": 0.4},
-                    "dented": {"diffuse": 0.4, "mirror": 0.4, "normalMap": "dents"}},
-      "scene": [{"shape": "quad", "width": 12, "depth": 12, "material": "floor"},
-                {"shape": "sphere", "radius": 0.6, "material": "glass",
-                 "transform": {"translate": [0, 0.6, 0.8]}},
-                {"shape": "icosphere", "radius": 0.7, "level": 1, "material": "glossy",
-                 "transform": {"translate": [-1.4, 0.7, 0]}},
-                {"shape": "icosphere", "radius": 0.7, "level": 1, "material": "dented",
-                 "transform": {"translate": [1.4, 0.7, 0]}}]})");
+    // The yard has something for most options to change. Others change the path, the second camera,
+    // the texture of the floor, or what a mirror of few facets shows of an exact sphere of glass.
+    PlainJson scene = yard();
+    scene.merge_patch(
+        parse("{'cameras': {'side': {'eye': [4, 1.6, 0], 'at': [0, 0.7, 0]}},"
+              "'path': [{'time': 0, 'eye': [0, 1.6, 4], 'at': [0, 0.7, 0]},"
+              "{'time': 1, 'eye': [3, 1.6, 4]}],"
+              "'materials': {'floor': {'diffuseMap': 'checker'}, 'a': {'mirror': 0.4}}}"));
+    scene["scene"][2].merge_patch(parse("{'shape': 'sphere', 'level': null}"));
+    scene["scene"][3]["level"] = 1;
+    save("all.json", scene.dump());
   }
 
   // What `whit render` says about a picture and what is in its files, by the names that the tables

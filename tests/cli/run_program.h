@@ -77,9 +77,10 @@ struct Outcome {
 };
 
 inline Outcome runWhit(
-    const std::vector<std::string>& words, const std::function<void()>& prepare = [] {}) {
+    const std::vector<std::string>& words, const std::function<void()>& prepare = [] {},
+    const char* program = WHIT_PROGRAM) {
   const TemporaryFolder folder;
-  const int status = waitFor(startWhit(words, folder, prepare));
+  const int status = waitFor(startWhit(words, folder, prepare, program));
   return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
 }
 

@@ -239,8 +239,12 @@ Renderer rendererOf(const char* json) {
   return Renderer(SceneBuilder("rays", json).build({.moves = true}));
 }
 
+Renderer unitSphere() { return rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})"); }
+
+using Points = std::vector<std::array<double, 2>>;
+
 // Rays down the z axis through points of the plane z = 0, from z = 4.
-Columns downThrough(const std::vector<std::array<double, 2>>& points) {
+Columns downThrough(const Points& points) {
   Columns columns;
   for (const auto& [x, y] : points) {
     columns.origins.insert(columns.origins.end(), {x, y, 4});
@@ -270,7 +274,7 @@ TEST(RayQueries, FindSpheresInClosedForm) {
       {"shape": "sphere", "radius": 1},
       {"shape": "sphere", "radius": 1, "transform": {"translate": [10, 0, 0], "scale": [2, 1, 0.5]}}]})");
 
-  std::vector<std::array<double, 2>> points;
+  Points points;
   for (int i = 0; i < 400; ++i) points.push_back({-1.2 + 0.006 * i, 0.3});
   for (int i = 0; i < 400; ++i) points.push_back({7.5 + 0.0125 * i, -0.4});
 
@@ -310,7 +314,7 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
 
   std::mt19937 random(5);
   std::uniform_real_distribution<double> inside(-0.49, 0.49);
-  std::vector<std::array<double, 2>> points;
+  Points points;
   for (int i = 0; i < 400; ++i) {
     const Matrix& m = places[static_cast<std::size_t>(i % 4)];
     const double x = inside(random), y = inside(random);
@@ -380,7 +384,7 @@ TEST(RayQueries, AnswerAtThePresentTime) {
 }
 
 TEST(RayQueries, CountHitsBetweenTheLimits) {
-  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  Renderer renderer = unitSphere();
   const Columns down = downThrough({{0.1, 0.1}});
 
   const double near = renderer.closest(down).t[0];
@@ -421,7 +425,7 @@ TEST(RayQueries, DoNotDependOnTheOtherRays) {
 }
 
 TEST(RayQueries, TakeFloatsAsDoubles) {
-  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  Renderer renderer = unitSphere();
   const float origin[] = {0.1f, 0.2f, 4}, direction[] = {0, 0.1f, -1};
   const double origin2[] = {double{0.1f}, double{0.2f}, 4}, direction2[] = {0, double{0.1f}, -1};
   const double t = renderer.closest({{origin, {}}, {direction, {}}}).t[0];
@@ -430,7 +434,7 @@ TEST(RayQueries, TakeFloatsAsDoubles) {
 }
 
 TEST(RayQueries, SayWhatTheyCannotTake) {
-  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  Renderer renderer = unitSphere();
   const std::vector<double> three{0, 0, 4}, six{0, 0, -1, 0, 0, -1}, four{0, 0, -1, 0};
 
   for (const Rays& rays : {Rays{{{}, three}, {{}, six}}, Rays{{{}, four}, {{}, four}},

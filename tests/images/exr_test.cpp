@@ -248,9 +248,9 @@ TEST_F(ExrTest, ListsOfChannelsEndWithTheirAttribute) {
 
   // Another list of one channel, "A", without the empty name at its end.
   constexpr int kAttributesAt = 8, kChannelBytes = 18;
-  Bytes attribute{'m', 'o', 'r', 'e', 0, 'c', 'h', 'l', 'i', 's', 't', 0, kChannelBytes,
-                  0,   0,   0,   'A', 0, 2,   0,   0,   0,   0,   0,   0, 0,
-                  1,   0,   0,   0,   1, 0,   0,   0};
+  std::string attribute("more\0chlist\0", 12);
+  attribute += {kChannelBytes, 0, 0, 0};
+  attribute.append("A\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", kChannelBytes);
   bytes.insert(bytes.begin() + kAttributesAt, attribute.begin(), attribute.end());
   EXPECT_EQ(errorOf("list.exr", bytes),
             ": header: expected the list of channels 'more' to end where its attribute does");

@@ -79,11 +79,6 @@ TEST_F(ImageLayers, AreInTheOrderOfTheirNames) {
             "uv.V ");
 }
 
-TEST_F(ImageLayers, ColorsAreNone) {
-  writeExr(path("a.exr"), Image(4, 3), {});
-  EXPECT_TRUE(readLayers(path("a.exr"), limits_).empty());
-}
-
 TEST_F(ImageLayers, PartsAreMerged) {
   // The parts overlap by a column, in which they agree.
   std::vector<std::string> parts;

@@ -195,8 +195,12 @@ inline Bytes jpegGray200() {
   Bytes file = {0xff, 0xd8, 0xff, 0xdb, 0, 67, 0};
   append(file, Bytes(64, 1));
   append(file, {0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0});
-  append(file, {0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 10});
-  append(file, {0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  // Tables of one code, which is a bit long.
+  for (const auto& [table, code] : {std::pair{0x00, 10}, {0x10, 0}}) {
+    append(file, {0xff, 0xc4, 0, 20, byteOf(table), 1});
+    append(file, Bytes(15));
+    file.push_back(byteOf(code));
+  }
   append(file, {0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0});
   append(file, {0b01001000, 0b00001111, 0xff, 0xd9});
   return file;

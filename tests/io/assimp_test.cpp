@@ -298,37 +298,40 @@ TEST_F(Assimp, ARiggedModelIsShownAtRest) {
   expectLike(kinds(), "*shown at rest*");
 }
 
-// A binary STL file of the unit square in the plane z = 0, as two triangles, and a third that has
-// this corner beside two that are its own.
-std::string squareStl(std::vector<float> corner) {
-  const std::vector<std::vector<float>> triangles{
-      {0, 0, 0, 1, 0, 0, 1, 1, 0}, {0, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 0, 1, 1, 0, 1}};
-  const std::uint32_t count = corner.empty() ? 2 : 3;
-  std::string file = std::string(80, ' ') + bytesOf<std::uint32_t>({count});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    file += std::string(12, '\0') + bytesOf(triangles[i]);
-    if (i == 2) file += bytesOf(corner);
-    file += std::string(2, '\0');
+// A binary STL file of triangles, each of nine coordinates.
+std::string stlOf(const std::vector<std::vector<float>>& triangles) {
+  std::string file = std::string(80, ' ') + word(triangles.size());
+  for (const std::vector<float>& corners : triangles) {
+    file += std::string(12, '\0') + bytesOf(corners) + std::string(2, '\0');
   }
   return file;
 }
 
+// The unit square in the plane z = 0, as two triangles, and perhaps a third one.
+std::string squareStl(const std::vector<float>& third = {}) {
+  std::vector<std::vector<float>> triangles{{0, 0, 0, 1, 0, 0, 1, 1, 0},
+                                            {0, 0, 0, 1, 1, 0, 0, 1, 0}};
+  if (!third.empty()) triangles.push_back(third);
+  return stlOf(triangles);
+}
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
 constexpr char kBadFace[] = "face with a corner that is not finite or not there left out";
 
 TEST_F(Assimp, FacesWithCornersThatAreNotFiniteAreLeftOut) {
-  const auto expected = trianglesOf(loadBytes("stl", squareStl({})));
+  const auto expected = trianglesOf(loadBytes("stl", squareStl()));
   ASSERT_EQ(expected.size(), 2u);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinite = std::numeric_limits<float>::infinity();
+  constexpr float infinite = std::numeric_limits<float>::infinity();
 
   std::uint64_t count = 0;
-  for (const std::vector<float>& corner :
-       {std::vector{nan, 0.0f, 0.0f}, std::vector{0.0f, 1.0f, infinite}}) {
-    EXPECT_EQ(trianglesOf(loadBytes("stl", squareStl(corner))), expected);
+  for (const std::vector<float>& third :
+       {std::vector<float>{0, 0, 1, 1, 0, 1, kNan, 0, 0}, {0, 0, 1, 1, 0, 1, 0, 1, infinite}}) {
+    const std::string file = squareStl(third);
+    EXPECT_EQ(trianglesOf(loadBytes("stl", file)), expected);
     expectWarned(kBadFace, ++count);
+    expectLike(errorIfStrict(save("m.stl", file)), joined("*", kBadFace, "*"));
   }
-
-  expectLike(errorIfStrict(save("m.stl", squareStl({nan, 0, 0}))), joined("*", kBadFace, "*"));
 }
 
 TEST_F(Assimp, WhatIsLeftOutOfOffFilesIsCounted) {
@@ -349,12 +352,7 @@ TEST_F(Assimp, WhatIsLeftOutOfOffFilesIsCounted) {
 
 // STL files have normals beside corners, OFF files have not.
 TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  std::string stl = std::string(80, ' ') + bytesOf<std::uint32_t>({2});
-  for (int i = 0; i < 2; ++i) {
-    stl += bytesOf<float>({0, 0, 1, nan, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(2, '\0');
-  }
-
+  const std::string stl = stlOf({2, {kNan, 0, 0, 1, 0, 0, 0, 1, 0}});
   const std::pair<const char*, std::string> files[] = {
       {"stl", stl}, {"off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
   for (const auto& [kind, file] : files) {

@@ -79,20 +79,16 @@ TEST_F(BrokenFiles, OtherModels) {
                  });
 }
 
-// Images, each of which a texture of the scene names.
+// Images, each of which a texture of the scene names. BrokenImage.EveryPrefix* has the short ones.
 TEST_F(BrokenFiles, Images) {
   const std::string png = "\x89PNG\r\n\x1a\n"s;
   const std::tuple<std::string, std::string, std::string> images[] = {
-      {"t.png", png, ": byte 8*"},
       {"t.png", png + "\0\0\0\15IHDR"s, ": byte 16*"},
-      {"t.jpg", "\xff\xd8\xff", ": byte *"},
       {"t.jpg", "\xff\xd8\xff\xe0" + std::string(40, 'x'), ": byte *"},
-      {"t.bmp", "BM", ": byte 0*"},
       {"t.tga", std::string(18, '\7'), ": byte *"},
       {"t.hdr", "#?RADIANCE\nFORMAT=" + std::string(900, 'x') + "\n\n", ": byte *"},
       {"t.hdr", "#?RADIANCE\n\n+X 1\n", ": byte 17*"},
       {"t.exr", "\x76\x2f\x31\x01" + kLong, ": header*"},
-      {"t.exr", "\x76\x2f\x31\x01", ": header*"},
       {"t.gif", "GIF89a", ": expected a PNG, JPEG*"},
       {"t.png", "", ": expected a PNG, JPEG*"},
   };

@@ -1,6 +1,5 @@
 // Emission maps from images that hold radiance: what is above 1 stays above 1.
 #include "gltf_pictures.h"
-#include "inspect/reference_frame.h"
 
 namespace whit {
 namespace {
@@ -32,22 +31,13 @@ class EmissionRange : public GltfMaterials {
 
   // Returns pixels that each see the middle of one texel, traced in packets or by the reference.
   std::vector<Rgb> pixels(bool reference) {
-    const Scene scene = bake(loadMembers(
-        "'size': [2, 1], 'cameras': {'above': {'eye': [0, 3, 0], 'at': [0, 0, 0], 'up': [0, 0, "
-        "-1], 'orthographicHeight': 1}}, 'textures': {'glow': {'image': 'glow.exr', 'wrap': "
-        "'clamp'}}, 'materials': {'lamp': {'diffuse': 0, 'emission': [1, 1, 1], 'emissionMap': "
-        "'glow'}}, 'scene': [{'shape': 'quad', 'width': 2, 'depth': 1, 'material': 'lamp'}]"));
-
-    Renderer renderer(scene, rendering_);
-    Film film = makeFilm(scene, rendering_);
-
-    if (reference) {
-      renderReference(renderer, scene.cameras[0], film);
-    } else {
-      renderer.render(scene.cameras[0], film);
-    }
-
-    return film.image.pixels;
+    return pixelsOf(
+        bake(loadMembers(
+            "'size': [2, 1], 'cameras': {'above': {'eye': [0, 3, 0], 'at': [0, 0, 0], 'up': [0, 0, "
+            "-1], 'orthographicHeight': 1}}, 'textures': {'glow': {'image': 'glow.exr', 'wrap': "
+            "'clamp'}}, 'materials': {'lamp': {'diffuse': 0, 'emission': [1, 1, 1], 'emissionMap': "
+            "'glow'}}, 'scene': [{'shape': 'quad', 'width': 2, 'depth': 1, 'material': 'lamp'}]")),
+        reference);
   }
 };
 

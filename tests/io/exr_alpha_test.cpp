@@ -2,7 +2,6 @@
 #include <bit>
 
 #include "gltf_pictures.h"
-#include "inspect/reference_frame.h"
 
 namespace whit {
 namespace {
@@ -29,12 +28,9 @@ TEST_F(ExrAlpha, CountsOnceInScenes) {
       "{'lamp': {'diffuse': 0, 'emission': 1, 'emissionMap': 'half', 'coverageMap': 'half'}}, "
       "'scene': [{'shape': 'quad', 'width': 2, 'depth': 2, 'material': 'lamp'}]"));
 
-  Renderer renderer(scene, rendering_);
-  Film film = makeFilm(scene, rendering_);
-  renderer.render(scene.cameras[0], film);
-  expectColor(film.image.pixels[0], kPremultiplied);
-  renderReference(renderer, scene.cameras[0], film);
-  expectColor(film.image.pixels[0], kPremultiplied);
+  for (const bool reference : {false, true}) {
+    expectColor(pixelsOf(scene, reference)[0], kPremultiplied);
+  }
 }
 
 TEST_F(ExrAlpha, CountsOnceInModels) {

@@ -41,7 +41,7 @@ void expectLegsOfOne(const SceneDescription& scene, const Vec3d& first) {
   constexpr double kRounding = 1.2e-7;
   EXPECT_NE(scene.origin, Vec3d());
   const std::array corners = cornersOf(scene);
-  EXPECT_LT(maxComponent(abs(corners[0] - first)), kRounding);
+  expectNearInFloat(corners[0], first, kRounding);
   EXPECT_NEAR(length(corners[1] - corners[0]), 1, 2 * kRounding);
   EXPECT_NEAR(length(corners[2] - corners[0]), 1, 2 * kRounding);
 }
@@ -78,7 +78,7 @@ TEST_F(FarModels, NodesOfGltfKeepEdgesCamerasAndLights) {
 
   ASSERT_NE(scene.origin, Vec3d());
   const auto expectAt = [&](const Vec3f& found, const Vec3d& right) {
-    EXPECT_LT(maxComponent(abs(scene.inFile(Vec3d(found)) - right)), kRounding);
+    expectNearInFloat(scene.inFile(Vec3d(found)), right, kRounding);
   };
 
   const std::array corners = cornersOf(scene);
@@ -165,8 +165,8 @@ TEST_F(FarModels, SceneFilesBringThemBack) {
   EXPECT_EQ(scene.origin, Vec3d());
   expectNoWarnings();
   const std::array corners = cornersOf(scene);
-  EXPECT_LT(maxComponent(abs(corners[0])), 1e-7);
-  EXPECT_LT(maxComponent(abs(corners[1] - Vec3d(1, 0, 0))), 1e-7);
+  expectNearInFloat(corners[0], {}, 1e-7);
+  expectNearInFloat(corners[1], {1, 0, 0}, 1e-7);
 }
 
 TEST_F(FarModels, SceneFilesSayThatTheyAreFar) {
@@ -181,7 +181,7 @@ TEST_F(FarModels, SettingsOfLightsAreInCoordinatesOfTheFile) {
   options_.settings = {"/up='y'", "/lights/0/position=[4000000.1, 500000.2, 14]"};
   const SceneDescription scene = loadObj(kFarObj);
   const Vec3d position = scene.inFile(Vec3d(scene.lights.at(0).position));
-  EXPECT_LT(maxComponent(abs(position - Vec3d(4000000.1, 500000.2, 14))), 5e-7);
+  expectNearInFloat(position, {4000000.1, 500000.2, 14}, kRounding);
 }
 
 // At 30 sizes nothing is gained that is seen.

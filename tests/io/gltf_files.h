@@ -176,6 +176,8 @@ class GltfBuilder {
 // The unit triangle in the plane z = 0, seen from +z.
 inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
+inline const std::vector<Vec3d> kTriangleCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
 // Returns a primitive whose positions are an accessor. `attributes` has further attributes and
 // `rest` further members; both begin with a comma.
 inline std::string primitive(const std::string& positions, const std::string& attributes = "",

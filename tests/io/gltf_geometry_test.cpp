@@ -34,7 +34,7 @@ TEST_F(GltfGeometry, TextBinaryAndExternalBuffersAreTheSame) {
   for (const std::string& file :
        {save("t.gltf", json(members)), save("t.glb", glb(members)), save("e.gltf", external)}) {
     SCOPED_TRACE(file);
-    expectTriangle(load(file), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    expectTriangle(load(file), kTriangleCorners);
   }
 }
 

@@ -305,10 +305,12 @@ class GltfSkin : public GltfMotion {
   }
 };
 
+// The middle corner lies half at (1, 1), where the lower joint takes it, and half at (0, 2).
+const std::vector<Vec3d> kTurnedCorners{{0, 0, 0}, {0.5, 1.5, 0}, {-1, 1, 0}};
+
 // The position of the mesh's own node has no effect.
 TEST_F(GltfSkin, VerticesFollowTheirJoints) {
-  // The middle corner lies half at (1, 1), where the lower joint takes it, and half at (0, 2).
-  expectTriangle(loadText(text()), {{0, 0, 0}, {0.5, 1.5, 0}, {-1, 1, 0}});
+  expectTriangle(loadText(text()), kTurnedCorners);
 
   const std::string atRest = text("0,0,0,1");
   expectTriangle(loadText(atRest), {{0, 0, 0}, {1, 1, 0}, {0, 2, 0}});
@@ -327,7 +329,7 @@ TEST_F(GltfSkin, CopiesOfItAreLeftOut) {
              "'attributes':{'TRANSLATION':", positions({1, 0, 0, 2, 0, 0}), "}}}");
   const SceneDescription scene = loadText(replaced(text(), "'skin':0", copies));
   EXPECT_EQ(scene.instances.size(), 1u);
-  expectTriangle(scene, {{0, 0, 0}, {0.5, 1.5, 0}, {-1, 1, 0}});
+  expectTriangle(scene, kTurnedCorners);
   expectWarned("copies of a skinned mesh left out");
 }
 
@@ -344,9 +346,7 @@ TEST_F(GltfSkin, JointsArePlacedByHand) {
   setPlace(scene, "/nodes/2", turned);
   moveScene(scene, 0);
 
-  expectNearInFloat(corner(scene, 0), {0, 0, 0});
-  expectNearInFloat(corner(scene, 1), {0.5, 1.5, 0});
-  expectNearInFloat(corner(scene, 2), {-1, 1, 0});
+  for (const std::size_t i : {0, 1, 2}) expectNearInFloat(corner(scene, i), kTurnedCorners[i]);
 
   // Copies that were made before keep their geometry.
   expectNearInFloat(corner(shared, 2), {0, 2, 0});
@@ -392,10 +392,10 @@ TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
 // A second set has the same joints once more.
 TEST_F(GltfSkin, WeightsOfAllSetsAreScaledToOne) {
   attributes = ",'JOINTS_1':" + add("VEC4", joints) + ",'WEIGHTS_1':" + floats("VEC4", weights);
-  expectNearInFloat(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), kTurnedCorners[1]);
   attributes.clear();
   weights[4] = weights[5] = 2;
-  expectNearInFloat(cornerOf(loadText(text()), 1), {0.5, 1.5, 0});
+  expectNearInFloat(cornerOf(loadText(text()), 1), kTurnedCorners[1]);
 }
 
 TEST_F(GltfSkin, JointsThatAreMissingAreLeftOut) {

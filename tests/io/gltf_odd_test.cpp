@@ -30,8 +30,7 @@ TEST_F(GltfOdd, IndicesWithoutAViewAreZerosButForSparseOnes) {
     const std::string indices = accessor(-1, 5123, "SCALAR", 3, members);
     return loadShown(triangle(",'indices':" + indices));
   };
-  expectTriangle(loadIndexed(sparse<std::uint16_t>({1, 2}, {1, 2})),
-                 {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, 0);
+  expectTriangle(loadIndexed(sparse<std::uint16_t>({1, 2}, {1, 2})), kTriangleCorners, 0, 0);
   EXPECT_EQ(triangleCount(loadIndexed("")), 1u);
 }
 
@@ -51,8 +50,7 @@ TEST_F(GltfOdd, DataMayBeOfAnyTypeAndSpelling) {
        {"data:;base64,AAAA", "DATA:model/gltf-buffer;base64,AAAA", "DATA:;BASE64,AAAA",
         "data:x/y;charset=x;base64,AAAA", "data:application/octet-stream;base64,%41%41A%41"}) {
     SCOPED_TRACE(other);
-    expectTriangle(loadText(replaced(whole, usual + "AAAA", other)),
-                   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, 0);
+    expectTriangle(loadText(replaced(whole, usual + "AAAA", other)), kTriangleCorners, 0, 0);
   }
 
   // The letters of base64 and the comma are checked.

@@ -5,6 +5,7 @@
 
 #include "core/display.h"
 #include "gltf_files.h"
+#include "inspect/reference_frame.h"
 #include "io/image/image_file.h"
 #include "pi.h"
 #include "render/renderer.h"
@@ -79,9 +80,18 @@ class GltfMaterials : public GltfTest {
   std::vector<Rgb> pictureOf(SceneDescription description, int n) {
     const Scene scene = bake(std::move(description));
     rendering_.size = ImageSize{n, n};
+    return pixelsOf(scene);
+  }
+
+  // The picture of the first camera, traced in packets or by the reference.
+  std::vector<Rgb> pixelsOf(const Scene& scene, bool reference = false) const {
     Renderer renderer(scene, rendering_);
     Film film = makeFilm(scene, rendering_);
-    renderer.render(scene.cameras[0], film);
+    if (reference) {
+      renderReference(renderer, scene.cameras[0], film);
+    } else {
+      renderer.render(scene.cameras[0], film);
+    }
     return film.image.pixels;
   }
 

@@ -67,10 +67,8 @@ TEST_F(SuppliedView, AModelStandsInAStudio) {
   EXPECT_EQ(scene.cameras.size(), 1u);
 }
 
+// SceneSettings.OptionsOfAModel has those of a model alone.
 TEST_F(SuppliedView, ModelsHaveOneBackgroundInTheStudio) {
-  const SceneDescription model = loadObj(kTriangleObj);
-  EXPECT_EQ(model.options.at("tonemap"), "filmic");
-  EXPECT_EQ(model.options.at("background"), "c8c8c8");
   const SceneDescription file =
       loadMembers("'view': 'model', 'options': {'tonemap': 'none'}, 'scene': [{'shape': 'quad'}]");
   EXPECT_EQ(file.options.at("tonemap"), "none");

@@ -1,6 +1,7 @@
 """Scenes of arrays: the pictures of files that say the same, and errors for what is wrong."""
 
 import copy
+import json
 import unittest
 from pathlib import Path
 
@@ -11,11 +12,6 @@ import whit
 from samples import (SIZE, assert_other, assert_same, error_of, expect_picture, pixels, scene_of,
                      square, square_scene, temporary_folder)
 
-SHAPE_SCENE = """{"whit": 1,
-  "cameras": {"above": {"eye": [0, 3, 2], "at": [0, 0, 0], "fov": 50}},
-  "lights": [{"position": [2, 4, 1], "intensity": 60}],
-  "materials": {"red": {"diffuse": [0.8, 0.2, 0.1]}},
-  "scene": [{"model": "square.obj", "materials": {"*": {"diffuse": [0.8, 0.2, 0.1]}}}]}"""
 SQUARE_OBJ = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3\nf 1 3 4\n"
 
 
@@ -27,7 +23,9 @@ class Arrays(unittest.TestCase):
     def test_the_picture_of_a_file(self):
         with temporary_folder():
             Path("square.obj").write_text(SQUARE_OBJ)
-            Path("scene.json").write_text(SHAPE_SCENE)
+            scene = square_scene(whit=1)
+            scene["scene"] = [{"model": "square.obj", "materials": {"*": scene["materials"]["red"]}}]
+            Path("scene.json").write_text(json.dumps(scene))
             picture = scene_of().render(size=SIZE)
             expect_picture(picture, "scene.json")
             self.assertGreater(picture.rgb.max(), 0.3)

@@ -25,6 +25,7 @@ def pose(axes="opencv"):
 
 
 CAMERA = whit.Camera.from_k(K, pose(), SIZE)
+FRONT = {"eye": [0, 0, 5], "at": [0, 0, 0]}
 PIXELS = np.stack(np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1])), -1)
 
 
@@ -92,8 +93,8 @@ class Cameras(unittest.TestCase):
         self.assertIn("position", str(error_of(camera.unproject, np.ones(SIZE[::-1]))))
 
     def test_a_description_takes_a_camera_and_gives_it_back(self):
-        scene = whit.Scene({"size": SIZE, "cameras": {"a": CAMERA, "b": {
-            "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 30}}, "scene": []})
+        cameras = {"a": CAMERA, "b": {**FRONT, "fov": 30}}
+        scene = whit.Scene({"size": SIZE, "cameras": cameras, "scene": []})
         for camera in (scene.camera(), scene.camera("a")):
             assert_array_equal(camera.k, K)
             assert_allclose(camera.pose, CAMERA.pose, atol=1e-6)
@@ -108,22 +109,21 @@ class Cameras(unittest.TestCase):
         self.assertIn("'c'", str(error_of(scene.camera, "c")))
 
     def test_pictures_narrower_than_the_aspect_keep_the_width(self):
-        camera = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "fov": 40, "aspect": 1.6}, (50, 40))
+        camera = whit.Camera({**FRONT, "fov": 40, "aspect": 1.6}, (50, 40))
         across = 1.6 * np.tan(np.radians(20))  # half the width at distance 1
         assert_allclose(camera.k[0, 0], 25 / across)
         self.assertAlmostEqual(camera.fov, 2 * np.degrees(np.arctan(across * 40 / 50)))
         positions_of_wall(camera)
 
     def test_a_moving_camera_is_told_where_it_is(self):
-        camera = {"eye": [0, 0, 5], "at": [0, 0, 0], "motion": {
-            "keys": [{"time": 0}, {"time": 1, "translate": [1, 2, 0]}]}}
+        camera = {**FRONT, "motion": {"keys": [{"time": 0}, {"time": 1, "translate": [1, 2, 0]}]}}
         scene = whit.Scene({"cameras": {"a": camera}, "scene": []}, moves=True)
         for time in (0.25, 1, 0.5, 0):
             scene.set_time(time)
             assert_allclose(scene.camera().pose[:3, 3], [time, 2 * time, 5], atol=1e-6)
 
     def test_stereo_pairs_have_no_matrix(self):
-        pair = whit.Camera({"eye": [0, 0, 5], "at": [0, 0, 0], "stereo": "leftRight"}, (80, 40))
+        pair = whit.Camera({**FRONT, "stereo": "leftRight"}, (80, 40))
         self.assertRegex(str(error_of(pair.project, [0, 0, 0])), "one eye.*leftRight")
 
     def test_a_camera_holds_for_one_picture(self):
@@ -149,7 +149,7 @@ class Cameras(unittest.TestCase):
                                      ("axes", K, pose(), "opencl")):
             error = error_of(whit.Camera.from_k, k, place, SIZE, axes)
             self.assertRegex(str(error), f"^{what}: expected")
-        panorama = whit.Camera({"eye": [0, 0, 1], "at": [0, 0, 0], "projection": "panorama"}, SIZE)
+        panorama = whit.Camera({**FRONT, "projection": "panorama"}, SIZE)
         scene = scene_of()
         self.assertEqual(scene.render(camera=panorama).width, SIZE[0])
         error = error_of(panorama.project, [0, 0, 0])

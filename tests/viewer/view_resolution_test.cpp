@@ -79,11 +79,17 @@ TEST(ResolutionControl, ChoosesWhatHoldsTheRate) {
   }
 }
 
-// A sample costs 30 ms with sampled rays, of which plain ones take a tenth.
-TEST(ResolutionControl, SampledRaysGoBeforeResolution) {
+// Returns a control of sampled rays that has seen a frame with plain ones.
+ResolutionControl sampling(double plainMs) {
   ResolutionControl control(kDefaultRate, 1);
   control.setSamples(1, true);
-  control.learn(3, kPixels, true);
+  control.learn(plainMs, kPixels, true);
+  return control;
+}
+
+// A sample costs 30 ms with sampled rays, of which plain ones take a tenth.
+TEST(ResolutionControl, SampledRaysGoBeforeResolution) {
+  ResolutionControl control = sampling(3);
   learn(control, 30);
   for (int i = 0; i < 3; ++i) control.moving(kPixels);
   EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 1, true}));
@@ -97,14 +103,8 @@ TEST(ResolutionControl, SampledRaysGoBeforeResolution) {
 
 // Until a sample with them was traced, they are only tried where they seem to be affordable.
 TEST(ResolutionControl, SampledRaysAreExpectedToCostMore) {
-  const auto first = [](double plainMs) {
-    ResolutionControl control(kDefaultRate, 1);
-    control.setSamples(1, true);
-    control.learn(plainMs, kPixels, true);
-    return control.moving(kPixels);
-  };
-  EXPECT_TRUE(first(8).plain);
-  EXPECT_FALSE(first(2).plain);
+  EXPECT_TRUE(sampling(8).moving(kPixels).plain);
+  EXPECT_FALSE(sampling(2).moving(kPixels).plain);
 }
 
 TEST(ResolutionControl, RatesStayWithinLimits) {
@@ -136,11 +136,13 @@ Steps stepsAtRest(ResolutionControl&& control, bool supersample, double shownSca
 
 TEST(ResolutionControl, SharpensAtRestStepByStep) {
   // A slow machine begins coarse and with one sample, and each step has four times the pixels.
-  EXPECT_EQ(stepsAtRest(learned(1e5), true),
-            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}, {1, 16}}));
-  EXPECT_EQ(stepsAtRest(learned(1e5), false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}}));
-  EXPECT_EQ(stepsAtRest(learned(1e5, kDefaultRate, 4), false),
-            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}}));
+  Steps slow{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}};
+  EXPECT_EQ(stepsAtRest(learned(1e5), false), slow);
+  slow.push_back({1, 4});
+  EXPECT_EQ(stepsAtRest(learned(1e5, kDefaultRate, 4), false), slow);
+  slow.push_back({1, 16});
+  EXPECT_EQ(stepsAtRest(learned(1e5), true), slow);
+
   EXPECT_EQ(stepsAtRest(learned(150), false), (Steps{{0.5, 1}, {1, 1}}));  // 37 ms for a half
   EXPECT_EQ(stepsAtRest(learned(10), true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
 }

@@ -4,6 +4,7 @@
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "io/scene_files.h"
+#include "source_files.h"
 #include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
 
@@ -18,7 +19,6 @@ class SavedScenes : public Viewer {
     Viewer::SetUp();
     writeSky(folder_ / "sky.exr");
   }
-  Json read(const std::string& file) { return Json::parse(bytesOf(file)); }
   void expectThatItShows(const std::string& picture, const Words& commands) {
     for (const std::string& command : commands) Viewer::expectThatItShows(picture, command);
   }
@@ -36,7 +36,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   expectThatItShows("shown.png", {lines[0]});
 
   // Only what was edited and the camera differ from the original file.
-  const Json before = read("tiny.json"), after = read("tiny-edited.json");
+  const Json before = jsonIn("tiny.json"), after = jsonIn("tiny-edited.json");
   EXPECT_NE(after["lights"][0]["intensity"], before["lights"][0]["intensity"]);
   for (const char* section : {"size", "materials", "scene"}) {
     EXPECT_EQ(after[section], before[section]) << section;
@@ -49,7 +49,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
 // A path that begins at the first camera keeps its beginning although that camera is saved
 // elsewhere.
 TEST_F(SavedScenes, KeepTheirPath) {
-  Json scene = read("tiny.json");
+  Json scene = jsonIn("tiny.json");
   scene["path"][0] = Json{{"time", 0}};
   save("tiny.json", scene.dump());
   play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
@@ -84,8 +84,8 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   EXPECT_FALSE(hasText(lines[0], "--allow-outside"));
   expectThatItShows("shown.png", {lines[0]});
   // Paths are relative to the folder of the new file.
-  EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
-  EXPECT_EQ(read("s-edited.json")["parameters"]["fov"], 55);
+  EXPECT_EQ(jsonIn("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
+  EXPECT_EQ(jsonIn("s-edited.json")["parameters"]["fov"], 55);
 }
 
 // The copied command states the eye in coordinates of the model's file; the saved scene brings the
@@ -103,7 +103,7 @@ TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
 }
 
 TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
-  Json scene = read("tiny.json");
+  Json scene = jsonIn("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
   save("tiny.json", scene.dump());
 
@@ -117,17 +117,17 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
   expectThatItShows("shown.png", {lines[1], lines[2]});
 
-  EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
-                                                       {"spp", 2},
-                                                       {"background", "ff8000"},
-                                                       {"fresnel", "schlick"},
-                                                       {"exposure", 0.25}}));
+  EXPECT_EQ(jsonIn("tiny-edited.json")["options"], (Json{{"depth", 2},
+                                                         {"spp", 2},
+                                                         {"background", "ff8000"},
+                                                         {"fresnel", "schlick"},
+                                                         {"exposure", 0.25}}));
 }
 
 // A dropped file opens. An exposure that the user chose for one scene does not hold for the next
 // one, which has a camera of its own.
 TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
-  Json scene = read("tiny.json");
+  Json scene = jsonIn("tiny.json");
   scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
   scene["cameras"]["front"]["eye"] = {1, 3, 7};
   save("other.json", scene.dump());
@@ -173,46 +173,16 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   expectThatItShows("sky.png", {lines[2]});
 
   // A model is named by the scene and not copied into it.
-  const Json scene = read("m-edited.json");
+  const Json scene = jsonIn("m-edited.json");
   EXPECT_EQ(scene["scene"][0]["model"], "models/m.obj");
   EXPECT_EQ(scene["sky"]["preset"], "studio");
-  EXPECT_EQ(read("m-edited-2.json")["sky"]["image"], "sky.exr");
-}
-
-// Returns a box of sides 1, 1 and 3 along z, as the text of an STL file.
-std::string tallBoxStl() {
-  std::string text = "solid box\n";
-  const auto corner = [&](std::array<int, 3> p) {
-    text += "vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
-            std::to_string(3 * p[2]) + "\n";
-  };
-
-  // The sides at 0 and 1 of each axis; (u, v) turn to the left seen from outside.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const int end : {0, 1}) {
-      const auto at = [&](int u, int v) {
-        std::array<int, 3> p{};
-        p[axis] = end;
-        p[(axis + 1) % 3] = end == 1 ? u : v;
-        p[(axis + 2) % 3] = end == 1 ? v : u;
-        corner(p);
-      };
-      for (const auto& [u, v] : {std::pair{1, 0}, {0, 1}}) {
-        text += "facet normal 0 0 0\nouter loop\n";
-        at(0, 0);
-        at(1, v);
-        at(u, 1);
-        text += "endloop\nendfacet\n";
-      }
-    }
-  }
-  return text + "endsolid box\n";
+  EXPECT_EQ(jsonIn("m-edited-2.json")["sky"]["image"], "sky.exr");
 }
 
 // The reader turns a model alone upright, but not an item of a scene.
 TEST_F(SavedScenes, OfATurnedModelHoldItUpright) {
-  save("box.stl", tallBoxStl());
-  scene_ = {"box.stl"};
+  save("tetra.stl", sourceText("tests/fuzz/corpus/stl/tetra.stl"));
+  scene_ = {"tetra.stl"};
   for (const Words& options : {Words{}, {"--up", "y"}, {"--up", "x"}}) {
     const Words lines = commandsOf(1, "bare\nasked\nwait sharp\nscreenshot shown.png\nkey Ctrl+S\n",
                                    "120x75", options);
@@ -260,10 +230,10 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
                  "key Ctrl+S\n",
                  "800x560");
 
-  const Json sky = read("tiny-edited.json")["sky"];
+  const Json sky = jsonIn("tiny-edited.json")["sky"];
   EXPECT_NE(sky["scale"], 1);
   EXPECT_NE(sky["rotation"], 0);
-  EXPECT_TRUE(read("tiny-edited.json")["ambient"].contains("fromSky"));
+  EXPECT_TRUE(jsonIn("tiny-edited.json")["ambient"].contains("fromSky"));
   expectThatItShows("shown.png", lines);
 }
 
@@ -276,7 +246,7 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
                  "320x200");
   expectOtherCodes("before.png", "error.png");  // an error is shown without the other words, too
   EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=320x200");
-  EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
+  EXPECT_FALSE(jsonIn("tiny-edited.json").contains("sky"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/run_command.h"
 #include "io/gltf_files.h"
 #include "output/open_and_warn.h"
+#include "virtual_display.h"
 
 namespace whit::view {
 namespace {
@@ -19,8 +20,7 @@ class Sessions : public cli::TinySceneTest {
     options_.common.quiet = true;
     options_.common.render.threads = 2;
     options_.scene = tiny_;
-    begin(openAndWarn(options_.scene, options_.common, nullptr));
-    settle();
+    beginWithScene();
   }
 
   // Begins another session, without a scene where there is none.
@@ -28,6 +28,14 @@ class Sessions : public cli::TinySceneTest {
     session_ = std::make_unique<Session>(options_, std::move(scene), [] {});
     session_->setWindow({48, 32}, 32, 1);
     session_->endSupersampling();
+  }
+
+  std::shared_ptr<OpenScene> opened() const {
+    return openAndWarn(options_.scene, options_.common, nullptr);
+  }
+  void beginWithScene() {
+    begin(opened());
+    settle();
   }
 
   const ViewState& state() const { return session_->state(); }
@@ -45,12 +53,22 @@ class Sessions : public cli::TinySceneTest {
     ASSERT_TRUE(sharp);
   }
 
+  template <typename Condition>
+  void settleUntil(const Condition& happened) {
+    constexpr int kMostPictures = 1000;
+    for (int picture = 0; picture < kMostPictures && !happened(); ++picture) settle();
+  }
+
   void edit(const std::string& setting) {
     session_->edit({setting}, state().edited);
     settle();
   }
   void act(const std::string& line) {
     session_->act(line);
+    settle();
+  }
+  void open(const std::string& scene) {
+    session_->open(scene);
     settle();
   }
   std::string command() const { return session_->command(); }
@@ -93,8 +111,7 @@ TEST_F(Sessions, OptionsAndEditsAreUndone) {
 // Exact spheres are part of the acceleration structure, which the next picture builds anew. The
 // rays of the pixel are asked for again before and after that.
 TEST_F(Sessions, BuiltInEffectsAreChosenWithAPixelPicked) {
-  session_->open("glass");
-  settle();
+  open("glass");
   act("click 24 16");
   for (const bool on : {false, true}) {
     act(on ? "effect spheres 1" : "effect spheres 0");
@@ -186,29 +203,24 @@ TEST_F(Sessions, TheViewFromAsideOfALensHasACommand) {
   Json scene = jsonIn("tiny.json");
   for (Json& camera : scene["cameras"]) camera["aperture"] = 0.5;
   save("tiny.json", scene.dump());
-  begin(openAndWarn(options_.scene, options_.common, nullptr));
-  settle();
+  beginWithScene();
   act("click 24 16");
-  constexpr int kMostPictures = 1000;
-  for (int picture = 0; picture < kMostPictures && !state().rays.scene; ++picture) settle();
+  settleUntil([&] { return state().rays.scene != nullptr; });
   act("aside");
   EXPECT_TRUE(hasText(command(), "--camera=view"));
   save("shown.png", encodePng(state().shown.film.display));
 
-  const std::string line = WHIT_PROGRAM + command().substr(4) + " --quiet -o again.png";
-  const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
-  ASSERT_EQ(outcome.status, 0) << line << outcome.err;
+  paste(command() + " --quiet -o again.png", folder_.path().string());
   EXPECT_EQ(storedIn("again.png").codes, storedIn("shown.png").codes);
 }
 
 TEST_F(Sessions, AFileThatChangesWhileItIsReadIsReadAgain) {
-  const std::shared_ptr<OpenScene> scene = openAndWarn(options_.scene, options_.common, nullptr);
+  const std::shared_ptr<OpenScene> scene = opened();
   const std::filesystem::file_time_type before = std::filesystem::last_write_time(tiny_);
   std::filesystem::last_write_time(tiny_, before + std::chrono::seconds(1));
 
   begin(scene);
-  constexpr int kMostPictures = 1000;
-  for (int picture = 0; picture < kMostPictures && state().scene == scene; ++picture) settle();
+  settleUntil([&] { return state().scene != scene; });
   EXPECT_NE(state().scene, scene);
 }
 
@@ -229,8 +241,7 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   options_.common.render.camera = options_.common.load.camera = "side";
   options_.common.render.fov = 30.0;
   options_.common.given = {"camera", "fov"};
-  begin(openAndWarn(options_.scene, options_.common, nullptr));
-  settle();
+  beginWithScene();
   const std::string given = command();
   EXPECT_TRUE(hasText(given, "--fov=30 "));
   EXPECT_TRUE(hasText(given, lamp_[0]));
@@ -239,8 +250,7 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
   settle();
   EXPECT_TRUE(session_->choosesScene());
   EXPECT_EQ(command(), "") << "the empty scene has a command";
-  session_->open(options_.scene);
-  settle();
+  open(options_.scene);
   EXPECT_EQ(command(), given);
   EXPECT_FALSE(session_->hasUnsavedEdits());
   act("reload");
@@ -248,8 +258,7 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
 
   // Neither holds for another scene, which has no such camera, nor anything that moves.
   options_.common.load.instant.seconds = 1;
-  session_->open("whitted");
-  settle();
+  open("whitted");
   act("reload");
   EXPECT_EQ(state().error, "");
   EXPECT_TRUE(command().starts_with("whit render whitted -o whitted.png --size"));
@@ -259,8 +268,7 @@ TEST_F(Sessions, TheFirstSceneIsOpenedWithTheCommandLine) {
 
 TEST_F(Sessions, AFirstSceneThatCannotBeReadLeavesTheChoice) {
   begin(nullptr);
-  session_->open("missing.json");
-  settle();
+  open("missing.json");
   EXPECT_TRUE(hasText(state().error, "missing.json"));
   EXPECT_EQ(state().status, ExitStatus::io);
   EXPECT_TRUE(session_->choosesScene());
@@ -293,7 +301,7 @@ TEST_F(Sessions, TheTimeBarNamesTheAnimationThatPlays) {
   options_.common.load.instant.plays = true;
   options_.scene = folder_ / "m.gltf";
   save("m.gltf", twoAnimations());
-  begin(openAndWarn(options_.scene, options_.common, nullptr));
+  begin(opened());
   session_->act("play");
   settle();
   ASSERT_EQ(state().timeline.animation, "walk");

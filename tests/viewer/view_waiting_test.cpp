@@ -143,7 +143,7 @@ TEST_F(Viewer, WithoutASceneItOffersSome) {
 }
 
 TEST_F(Viewer, ABlackPictureSaysWhy) {
-  Json scene = Json::parse(bytesOf("tiny.json"));
+  Json scene = jsonIn("tiny.json");
   scene.erase("lights");
   save("tiny.json", scene.dump());
   play("asked\nkey Shift\nwait 300 frames\nwait sharp\nscreenshot dark.png\n", "640x120");

@@ -54,16 +54,11 @@ class Viewer : public cli::TinySceneTest {
     return lines;
   }
 
-  // Runs a command that the viewer has printed, as a shell would.
+  // Runs a command that the viewer has printed.
   void render(const std::string& command, const std::string& file) {
     paste(command + " --quiet -o " + file);
   }
-  void paste(const std::string& command) {
-    ASSERT_EQ(command.rfind("whit render ", 0), 0u) << command;
-    const std::string line = WHIT_PROGRAM + command.substr(4);
-    const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
-    ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
-  }
+  void paste(const std::string& command) { view::paste(command, folder_.path().string()); }
   // Renders with the printed command, which must give the picture that was shown.
   void expectThatItShows(const std::string& picture, const std::string& command) {
     render(command, "again.png");

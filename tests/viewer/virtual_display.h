@@ -1,6 +1,7 @@
 // A display without a screen, and the viewer run on it.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <string>
@@ -63,10 +64,15 @@ inline cli::Outcome runOn(const std::string& display, const std::string& folder,
     setenv("XDG_CONFIG_HOME", folder.c_str(), 1);  // not the user's settings
     if (chdir(folder.c_str()) != 0) _exit(126);
   };
-  const cli::TemporaryFolder output;
-  const int status = cli::waitFor(
-      cli::startWhit({words.begin() + 1, words.end()}, output, prepare, words[0].c_str()));
-  return {status, cli::readFile(output / "stdout"), cli::readFile(output / "stderr")};
+  return cli::runWhit({words.begin() + 1, words.end()}, prepare, words[0].c_str());
+}
+
+// Runs a command that the viewer has printed, as a shell would, in `folder`.
+inline void paste(const std::string& command, const std::string& folder) {
+  ASSERT_EQ(command.rfind("whit render ", 0), 0u) << command;
+  const std::string line = WHIT_PROGRAM + command.substr(4);
+  const cli::Outcome outcome = runOn("", folder, {"/bin/sh", "-c", line});
+  ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
 }
 
 }  // namespace whit::view
