@@ -36,7 +36,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   expectThatItShows("shown.png", {lines[0]});
 
   // Only what was edited and the camera differ from the original file.
-  const Json before = jsonIn("tiny.json"), after = jsonIn("tiny-edited.json");
+  const Json before = jsonIn("tiny.json"), after = Json::parse(bytesOf("tiny-edited.json"));
   EXPECT_NE(after["lights"][0]["intensity"], before["lights"][0]["intensity"]);
   for (const char* section : {"size", "materials", "scene"}) {
     EXPECT_EQ(after[section], before[section]) << section;

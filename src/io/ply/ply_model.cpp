@@ -272,7 +272,9 @@ class PlyReader {
 
     // In text each element begins a line. MeshLab writes colors of corners without a property.
     if (!ascii_ || !lines_.hasMore()) return;
-    warnings_.add("values that no property of the header names left out", place());
+    if (!looksAhead_) {
+      warnings_.add("values that no property of the header names left out", place());
+    }
     lines_.rest();
   }
 
@@ -365,6 +367,7 @@ class PlyReader {
   BoxOf<Vec3d> boxOfFaces(const PlyElement& vertices, const std::vector<Vec3d>& positions) {
     const LineReader lines = lines_;
     const std::size_t at = at_;
+    looksAhead_ = true;
 
     BoxOf<Vec3d> box;
     const auto isNear = [&] { return !box.empty() && length(box.center()) < box.diagonal(); };
@@ -383,6 +386,7 @@ class PlyReader {
     // The faces are read after this.
     lines_.goTo(lines);
     at_ = at;
+    looksAhead_ = false;
     return box;
   }
 
@@ -550,6 +554,7 @@ class PlyReader {
   MemoryBudget& budget_;
   Warnings& warnings_;
   bool ascii_ = false, reversed_ = false;
+  bool looksAhead_ = false;  // elements are read that are read again
   std::vector<PlyElement> elements_;
   std::size_t at_ = 0;  // position in binary data
   Mesh mesh_;
