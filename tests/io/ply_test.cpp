@@ -266,6 +266,7 @@ TEST_F(Ply, WhatIsLeftOutIsCounted) {
   const std::string vertex =
       "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+
   expectRead(
       "m.ply",
       {

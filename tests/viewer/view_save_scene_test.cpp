@@ -19,6 +19,8 @@ class SavedScenes : public Viewer {
     Viewer::SetUp();
     writeSky(folder_ / "sky.exr");
   }
+  // The members keep their order.
+  Json read(const std::string& file) const { return Json::parse(bytesOf(file)); }
   void expectThatItShows(const std::string& picture, const Words& commands) {
     for (const std::string& command : commands) Viewer::expectThatItShows(picture, command);
   }
@@ -36,7 +38,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   expectThatItShows("shown.png", {lines[0]});
 
   // Only what was edited and the camera differ from the original file.
-  const Json before = jsonIn("tiny.json"), after = Json::parse(bytesOf("tiny-edited.json"));
+  const Json before = read("tiny.json"), after = read("tiny-edited.json");
   EXPECT_NE(after["lights"][0]["intensity"], before["lights"][0]["intensity"]);
   for (const char* section : {"size", "materials", "scene"}) {
     EXPECT_EQ(after[section], before[section]) << section;
@@ -49,7 +51,7 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
 // A path that begins at the first camera keeps its beginning although that camera is saved
 // elsewhere.
 TEST_F(SavedScenes, KeepTheirPath) {
-  Json scene = jsonIn("tiny.json");
+  Json scene = read("tiny.json");
   scene["path"][0] = Json{{"time", 0}};
   save("tiny.json", scene.dump());
   play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
@@ -84,8 +86,8 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   EXPECT_FALSE(hasText(lines[0], "--allow-outside"));
   expectThatItShows("shown.png", {lines[0]});
   // Paths are relative to the folder of the new file.
-  EXPECT_EQ(jsonIn("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
-  EXPECT_EQ(jsonIn("s-edited.json")["parameters"]["fov"], 55);
+  EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
+  EXPECT_EQ(read("s-edited.json")["parameters"]["fov"], 55);
 }
 
 // The copied command states the eye in coordinates of the model's file; the saved scene brings the
@@ -103,7 +105,7 @@ TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
 }
 
 TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
-  Json scene = jsonIn("tiny.json");
+  Json scene = read("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
   save("tiny.json", scene.dump());
 
@@ -117,17 +119,17 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
   expectThatItShows("shown.png", {lines[1], lines[2]});
 
-  EXPECT_EQ(jsonIn("tiny-edited.json")["options"], (Json{{"depth", 2},
-                                                         {"spp", 2},
-                                                         {"background", "ff8000"},
-                                                         {"fresnel", "schlick"},
-                                                         {"exposure", 0.25}}));
+  EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
+                                                       {"spp", 2},
+                                                       {"background", "ff8000"},
+                                                       {"fresnel", "schlick"},
+                                                       {"exposure", 0.25}}));
 }
 
 // A dropped file opens. An exposure that the user chose for one scene does not hold for the next
 // one, which has a camera of its own.
 TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
-  Json scene = jsonIn("tiny.json");
+  Json scene = read("tiny.json");
   scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
   scene["cameras"]["front"]["eye"] = {1, 3, 7};
   save("other.json", scene.dump());
@@ -173,10 +175,10 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   expectThatItShows("sky.png", {lines[2]});
 
   // A model is named by the scene and not copied into it.
-  const Json scene = jsonIn("m-edited.json");
+  const Json scene = read("m-edited.json");
   EXPECT_EQ(scene["scene"][0]["model"], "models/m.obj");
   EXPECT_EQ(scene["sky"]["preset"], "studio");
-  EXPECT_EQ(jsonIn("m-edited-2.json")["sky"]["image"], "sky.exr");
+  EXPECT_EQ(read("m-edited-2.json")["sky"]["image"], "sky.exr");
 }
 
 // The reader turns a model alone upright, but not an item of a scene.
@@ -230,10 +232,10 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
                  "key Ctrl+S\n",
                  "800x560");
 
-  const Json sky = jsonIn("tiny-edited.json")["sky"];
+  const Json sky = read("tiny-edited.json")["sky"];
   EXPECT_NE(sky["scale"], 1);
   EXPECT_NE(sky["rotation"], 0);
-  EXPECT_TRUE(jsonIn("tiny-edited.json")["ambient"].contains("fromSky"));
+  EXPECT_TRUE(read("tiny-edited.json")["ambient"].contains("fromSky"));
   expectThatItShows("shown.png", lines);
 }
 
@@ -246,7 +248,7 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
                  "320x200");
   expectOtherCodes("before.png", "error.png");  // an error is shown without the other words, too
   EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=320x200");
-  EXPECT_FALSE(jsonIn("tiny-edited.json").contains("sky"));
+  EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }
 
 }  // namespace
