@@ -4,7 +4,6 @@
 #include "has_text.h"
 #include "io/load_scene.h"
 #include "io/scene_files.h"
-#include "source_files.h"
 #include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
 
@@ -183,8 +182,8 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
 
 // The reader turns a model alone upright, but not an item of a scene.
 TEST_F(SavedScenes, OfATurnedModelHoldItUpright) {
-  save("tetra.stl", sourceText("tests/fuzz/corpus/stl/tetra.stl"));
-  scene_ = {"tetra.stl"};
+  save("tall.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  scene_ = {"tall.obj"};
   for (const Words& options : {Words{}, {"--up", "y"}, {"--up", "x"}}) {
     const Words lines = commandsOf(1, "bare\nasked\nwait sharp\nscreenshot shown.png\nkey Ctrl+S\n",
                                    "120x75", options);
