@@ -105,7 +105,7 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // bounds of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
-  // At 0 s: the coplanar triangles, and the instances that are not flattened.
+  // These keep the coplanar triangles of 0 s, and the instances that are not flattened then.
   bool isSearched = false;
   CoplanarTriangles coplanarAtStart;
   std::vector<InstanceRecord> instancesAtStart;

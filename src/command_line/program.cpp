@@ -44,7 +44,8 @@ extern "C" void onInterrupt(int) {
 // and ffmpeg would be given it in their place.
 void openStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // What is open for reading alone refuses every result, as a closed stream does.
+    // The null device is opened for reading alone, so that it refuses results as a closed stream
+    // does.
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
   }
 }

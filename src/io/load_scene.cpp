@@ -84,7 +84,7 @@ void readViewMembers(JsonObject& members, SceneDescription& scene) {
 }
 
 // Returns the time of the last key of all that plays: one animation of each model, and what the
-// scene file moves itself. None: nothing plays.
+// scene file moves itself. Returns nothing if nothing plays.
 std::optional<double> endOfAnimations(const SceneContext& context) {
   std::optional<double> end;
   const auto playFirst = [&](const std::vector<Animation>& all, const std::string& name) {

@@ -38,7 +38,7 @@ Camera turned(Camera from, const Camera& to) {
 }
 
 // Returns the scene's camera that equals this one, or the first that options can turn into it for a
-// picture of this aspect ratio; null: there is none.
+// picture of this aspect ratio. Returns null if there is none.
 const Camera* cameraFor(const Camera& camera, const Scene& scene, double aspect) {
   const Camera seen = fitted(camera, aspect);
   const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
@@ -67,7 +67,8 @@ std::string setCamera(const TracedFrame& frame, RenderOptions& options) {
   const ImageSize size = options.size.value();
   const double aspect = static_cast<double>(size.width) / size.height;
 
-  // What the picture shows of the camera has no aspect, which no option can give.
+  // No option can give an aspect. A camera with one is described by what the picture shows of it,
+  // which a camera without an aspect shows as well.
   Camera camera = frame.request.camera;
   const Camera* named = cameraFor(camera, scene, aspect);
   if (!named) {

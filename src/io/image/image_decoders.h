@@ -28,7 +28,7 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 using ImageDecoder = RawImage(const std::string& path, FileBytes file, const ImageLimits& limits);
 ImageDecoder decodePng, decodeJpeg, decodeWebp, decodeBmp, decodeHdr, decodeTga;
 
-// PNGs of 16 bits, which decodePng() rounds to 8. decodePng16() keeps them, as linear light that is
+// decodePng() rounds PNGs of 16 bits to 8. decodePng16() keeps them, as linear light that is
 // premultiplied by alpha.
 bool isPng16(FileBytes file);
 ImageDecoder decodePng16;

@@ -71,7 +71,7 @@ struct PlyElement {
     const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return found == properties.end() ? nullptr : &*found;
   }
-  // The property that holds the corners of faces or strips.
+  // Returns the property that holds the corners of faces or strips.
   const PlyProperty* corners() const {
     const PlyProperty* const found = find("vertex_indices");
     return found ? found : find("vertex_index");
