@@ -9,7 +9,7 @@
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
 //   point X Y                     the pointer rests there from now on
 //   panel NAME                    turns to that tab of the panel
-//   drop FILE                     a file dropped on the window
+//   drop FILE                     a file dropped on the window; "wait sharp" waits for its picture
 //   resize W H | minimize | restore
 //   bare                          the picture alone, without panel, words and messages
 //   asked                         at rest no more samples than asked for

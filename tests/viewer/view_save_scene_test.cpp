@@ -78,10 +78,10 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
     "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
     "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})");
 
-  const Words lines = commandsOf(
-      1,
-      "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
-      "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
+  const Words lines =
+      commandsOf(1,
+                 "drop sub/s.json?fov=55\nwait sharp\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
+                 "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
   EXPECT_FALSE(hasText(lines[0], "--allow-outside"));
   expectThatItShows("shown.png", {lines[0]});
   // Paths are relative to the folder of the new file.
@@ -97,7 +97,7 @@ TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
        "v 4000000.1 500001 10\nf 1 2 3\n");
   const Words lines =
       commandsOf(2,
-                 "drop far.obj\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
+                 "drop far.obj\nwait sharp\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
                  "wait 2 frames\nscreenshot shown.png\nkey C\nkey Ctrl+S\n");
   EXPECT_TRUE(hasText(lines[0], "--eye=400000"));
   expectThatItShows("shown.png", lines);
@@ -133,11 +133,11 @@ TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
   scene["cameras"]["front"]["eye"] = {1, 3, 7};
   save("other.json", scene.dump());
 
-  const Words lines = commandsOf(
-      3,
-      "bare\nasked\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
-      "screenshot shown.png\nkey C\ndrop tiny.json\nwait 60 frames\nwait sharp\nkey C\n",
-      "48x32", {"--spp", "2"});
+  const Words lines =
+      commandsOf(3,
+                 "bare\nasked\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait sharp\n"
+                 "screenshot shown.png\nkey C\ndrop tiny.json\nwait sharp\nkey C\n",
+                 "48x32", {"--spp", "2"});
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --exposure=0.25");
   EXPECT_EQ(lines[1], "whit render other.json -o other.png --size=48x32 --spp=2");
   EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=48x32 --spp=2");
@@ -150,10 +150,9 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
   std::ofstream(elsewhere / "far.json") << R"({"whit": 1, "sky": {"image": "sky.exr"},
     "scene": [{"shape": "sphere"}]})";
 
-  const Words lines =
-      commandsOf(1, "drop " + (elsewhere / "far.json") +
-                        "\nwait 60 frames\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
-                        "key Ctrl+S\n");
+  const Words lines = commandsOf(1, "drop " + (elsewhere / "far.json") +
+                                        "\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
+                                        "key Ctrl+S\n");
   EXPECT_TRUE(hasText(lines[0], " --allow-outside"));
   expectThatItShows("shown.png", {lines[0]});
 }
@@ -164,12 +163,12 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   save("models/m.obj",
        "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n");
 
-  const Words lines = commandsOf(
-      3,
-      "drop models/m.obj\nwait 60 frames\nkey D 0.2\nbare\nwait 20 frames\nwait sharp\n"
-      "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\nwait sharp\n"
-      "screenshot sky.png\nkey Ctrl+S\n",
-      "120x80");
+  const Words lines =
+      commandsOf(3,
+                 "drop models/m.obj\nwait sharp\nkey D 0.2\nbare\nwait 20 frames\nwait sharp\n"
+                 "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait sharp\n"
+                 "screenshot sky.png\nkey Ctrl+S\n",
+                 "120x80");
   expectThatItShows("shown.png", {lines[0], lines[1]});
   expectThatItShows("sky.png", {lines[2]});
 
@@ -208,11 +207,11 @@ TEST_F(SavedScenes, WithASuppliedViewNameTheirCamera) {
 
 TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
   for (const Words& options : {Words{}, {"--sky", "studio"}, {"--sky", "none"}}) {
-    const Words lines = commandsOf(
-        3,
-        "bare\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
-        "wait sharp\nscreenshot sky.png\nkey C\nkey Ctrl+S\n",
-        "120x80", options);
+    const Words lines =
+        commandsOf(3,
+                   "bare\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait sharp\n"
+                   "screenshot sky.png\nkey C\nkey Ctrl+S\n",
+                   "120x80", options);
     expectOtherCodes("own.png", "sky.png");
     expectThatItShows("own.png", {lines[0]});
     EXPECT_FALSE(hasText(lines[1], "--sky"));

@@ -194,7 +194,7 @@ TEST_F(Viewer, AModelIsPrintedAsItIsSeenInAWindowOfAnyShape) {
   for (const std::string size : {"90 150", "240 150", "300 60"}) {
     const Words lines = commandsOf(1,
                                    "bare\nasked\nresize " + size +
-                                       "\ndrop box.obj\nwait 60 frames\nwait sharp\n"
+                                       "\ndrop box.obj\nwait sharp\n"
                                        "screenshot shown.png\nkey C\n",
                                    "");
     const bool hasShapeOfScene = size == "240 150";
@@ -207,7 +207,7 @@ TEST_F(Viewer, AModelIsPrintedAsItIsSeenInAWindowOfAnyShape) {
 TEST_F(Viewer, AModelStaysInThePicture) {
   save("box.obj", kBox);
   play(
-      "bare\nasked\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
+      "bare\nasked\ndrop box.obj\nwait sharp\nmouse left 900 -700\nmouse middle 5000 -3000\n"
       "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"
       "key F\nwait 3 frames\nwait sharp\nscreenshot fit.png\nwheel 3\nmouse middle 30 9\n"
       "wait 3 frames\nwait sharp\nkey F\nbare\nwait 3 frames\nwait sharp\n"
