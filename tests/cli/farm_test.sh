@@ -42,10 +42,10 @@ for _ in $(seq 20); do
     kill -0 $run 2>/dev/null || { cat log; exit 1; }
     sleep 0.01
   done
-  # Its own frames: no other program has this folder as its own.
+  # No other program has this folder as its own. No child looks for the workers, because one for each
+  # process would take a busy machine longer than the workers have frames.
   for process in /proc/[0-9]*; do
-    if [ "$(readlink "$process/exe")" != "$(readlink -f "$whit")" ] ||
-      [ "$(readlink "$process/cwd")" != "$work" ]; then continue; fi
+    if ! [[ $process/exe -ef $whit && $process/cwd -ef $work ]]; then continue; fi
     process=${process#/proc/}
     stop "$process" || continue
     last=$(tr '\0' '\n' <"/proc/$process/cmdline" | sed -n 's/^[0-9]*\.\.\([0-9]*\)$/\1/p')
