@@ -101,21 +101,21 @@ class SceneOrderOfFiles : public SceneFileTest {
       }
     };
 
-    put("'E'", R"({"shape": "quad", "width": 4, "depth": 4.3, "material": "early"})");
-    put("'H'", R"({"shape": "quad", "width": 4, "depth": 4.3, "material": "holes"})");
-    put("'S'", R"({"shape": "quad", "width": 4, "depth": 4.3, "material": "shadowless"})");
-    put("'L'", R"({"shape": "quad", "width": 6, "depth": 6.5, "material": "late"})");
-    put("AWAY", R"("transform": {"translate": [30, 0, 0]})");
+    put("'E'", "{'shape': 'quad', 'width': 4, 'depth': 4.3, 'material': 'early'}");
+    put("'H'", "{'shape': 'quad', 'width': 4, 'depth': 4.3, 'material': 'holes'}");
+    put("'S'", "{'shape': 'quad', 'width': 4, 'depth': 4.3, 'material': 'shadowless'}");
+    put("'L'", "{'shape': 'quad', 'width': 6, 'depth': 6.5, 'material': 'late'}");
+    put("AWAY", "'transform': {'translate': [30, 0, 0]}");
 
     save("all.tga", tga({"ffffff"}));
-    return Scene::finalize(loadMembers(R"("textures": {"all": {"image": "all.tga"}},
-                       "materials": {"early": {"diffuse": 0, "emission": 0.25},
-                                     "holes": {"diffuse": 0, "emission": 0.25, "alphaMap": "all"},
-                                     "shadowless": {"diffuse": 0, "emission": 0.25,
-                                                    "castsShadow": false},
-                                     "late": {"diffuse": 0, "emission": 0.75}}, )" +
-                                       sections),
-                           warnings_);
+    return Scene::finalize(
+        loadMembers("'textures': {'all': {'image': 'all.tga'}}, "
+                    "'materials': {'early': {'diffuse': 0, 'emission': 0.25}, "
+                    "'holes': {'diffuse': 0, 'emission': 0.25, 'alphaMap': 'all'}, "
+                    "'shadowless': {'diffuse': 0, 'emission': 0.25, 'castsShadow': false}, "
+                    "'late': {'diffuse': 0, 'emission': 0.75}}, " +
+                    sections),
+        warnings_);
   }
 
   void expectSeen(const std::string& sections, float wanted) {
@@ -124,32 +124,32 @@ class SceneOrderOfFiles : public SceneFileTest {
 };
 
 TEST_F(SceneOrderOfFiles, ItemsComeInTheirOrder) {
-  const std::string tile = R"("objects": {"tile": ['E']}, )";
-  expectSeen(R"("scene": ['E', 'L'])", kLate);
-  expectSeen(R"("scene": ['L', 'E'])", kEarly);
-  expectSeen(R"("scene": ['H', 'L'])", kLate);
-  expectSeen(R"("scene": ['S', 'L'])", kLate);
-  expectSeen(tile + R"("scene": [{"use": "tile"}, {"use": "tile", AWAY}, 'L'])", kLate);
-  expectSeen(tile + R"("scene": [{"use": "tile", AWAY}, 'L', {"use": "tile"}])", kEarly);
-  expectSeen(R"("scene": [{"group": ['L', {"group": ['E']}]}, 'L'])", kLate);
+  const std::string tile = "'objects': {'tile': ['E']}, ";
+  expectSeen("'scene': ['E', 'L']", kLate);
+  expectSeen("'scene': ['L', 'E']", kEarly);
+  expectSeen("'scene': ['H', 'L']", kLate);
+  expectSeen("'scene': ['S', 'L']", kLate);
+  expectSeen(tile + "'scene': [{'use': 'tile'}, {'use': 'tile', AWAY}, 'L']", kLate);
+  expectSeen(tile + "'scene': [{'use': 'tile', AWAY}, 'L', {'use': 'tile'}]", kEarly);
+  expectSeen("'scene': [{'group': ['L', {'group': ['E']}]}, 'L']", kLate);
 }
 
 // An object's own shapes keep their order among the objects that it uses, in each of its uses.
 TEST_F(SceneOrderOfFiles, WhatAnObjectHoldsComesInItsOrder) {
   for (const std::string scene :
-       {R"("scene": [{"use": "both"}])", R"("scene": [{"use": "both", AWAY}, {"use": "both"}])",
-        R"("scene": [{"use": "both", "repeat": {"count": [1, 1, 3], "step": [0, 0, 30]}}])"}) {
-    const std::string tile = R"("objects": {"tile": ['E'], "both": [)";
-    expectSeen(tile + R"('L', {"group": [{"use": "tile"}]}]}, )" + scene, kEarly);
-    expectSeen(tile + R"('L', {"use": "tile"}, 'L']}, )" + scene, kLate);
-    expectSeen(tile + R"({"use": "tile"}, 'L', {"use": "tile"}]}, )" + scene, kEarly);
+       {"'scene': [{'use': 'both'}]", "'scene': [{'use': 'both', AWAY}, {'use': 'both'}]",
+        "'scene': [{'use': 'both', 'repeat': {'count': [1, 1, 3], 'step': [0, 0, 30]}}]"}) {
+    const std::string tile = "'objects': {'tile': ['E'], 'both': [";
+    expectSeen(tile + "'L', {'group': [{'use': 'tile'}]}]}, " + scene, kEarly);
+    expectSeen(tile + "'L', {'use': 'tile'}, 'L']}, " + scene, kLate);
+    expectSeen(tile + "{'use': 'tile'}, 'L', {'use': 'tile'}]}, " + scene, kEarly);
   }
 }
 
 // Among coincident triangles of one material only the last one is kept, and covers all before it.
 TEST_F(SceneOrderOfFiles, WhatIsThereTwiceCountsAsTheLaterOne) {
-  expectSeen(R"("scene": ['E', 'L', 'E'])", kEarly);
-  expectSeen(R"("scene": ['L', 'E', 'L'])", kLate);
+  expectSeen("'scene': ['E', 'L', 'E']", kEarly);
+  expectSeen("'scene': ['L', 'E', 'L']", kLate);
   EXPECT_EQ(warned("triangle in the place of another of its material dropped"), 4u);
 }
 
@@ -164,9 +164,9 @@ TEST_F(SceneOrderOfFiles, FacesOfAModelComeInTheirOrder) {
   const std::string flat = "usemtl early\nf 1 2 3 4\n",
                     smooth = "usemtl late\nf 5//1 6//1 7//1 8//1\n";
 
-  for (const char* uses : {R"("scene": [{"model": "m.obj"}])",
-                           R"("objects": {"m": [{"model": "m.obj"}]},
-                              "scene": [{"use": "m"}, {"use": "m", AWAY}])"}) {
+  for (const char* uses : {"'scene': [{'model': 'm.obj'}]",
+                           "'objects': {'m': [{'model': 'm.obj'}]}, "
+                           "'scene': [{'use': 'm'}, {'use': 'm', AWAY}]"}) {
     save("m.obj", corners + flat + smooth);
     expectSeen(uses, kLate);
 
@@ -191,44 +191,47 @@ TEST_F(SceneOrderOfFiles, NodesOfAModelComeInTheOrderOfTheirTree) {
     }
     save("m.bin", std::string(reinterpret_cast<const char*>(corners.data()), 96) +
                       std::string("\0\0\1\0\2\0\0\0\2\0\3\0", 12));
-    save(
-        "m.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "m.bin", "byteLength": 108}],
-      "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48},
-                      {"buffer": 0, "byteOffset": 96, "byteLength": 12}],
-      "accessors": [
-        {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4,
-         "min": [-2, 0, -2.2], "max": [2, 0, 2.2]},
-        {"bufferView": 1, "componentType": 5126, "type": "VEC3", "count": 4,
-         "min": [-3, 0, -3.3], "max": [3, 0, 3.3]},
-        {"bufferView": 2, "componentType": 5123, "type": "SCALAR", "count": 6}],
-      "materials": [
-        {"doubleSided": true, "emissiveFactor": [0.25, 0.25, 0.25],
-         "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}},
-        {"doubleSided": true, "emissiveFactor": [0.75, 0.75, 0.75],
-         "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}],
-      "meshes": [
-        {"primitives": [{"attributes": {"POSITION": 0}, "indices": 2, "material": 0}]},
-        {"primitives": [{"attributes": {"POSITION": 1}, "indices": 2, "material": 1}]},
-        {"primitives": [{"attributes": {"POSITION": 1}, "indices": 2, "material": 1},
-                        {"attributes": {"POSITION": 0}, "indices": 2, "material": 0}]}],
-      "scene": 0, )" + nodes +
-                      "}");
+    save("m.gltf",
+         "{'asset': {'version': '2.0'}, 'buffers': [{'uri': 'm.bin', 'byteLength': 108}], "
+         "'bufferViews': [{'buffer': 0, 'byteLength': 48}, "
+         "{'buffer': 0, 'byteOffset': 48, 'byteLength': 48}, "
+         "{'buffer': 0, 'byteOffset': 96, 'byteLength': 12}], "
+         "'accessors': [ "
+         "{'bufferView': 0, 'componentType': 5126, 'type': 'VEC3', 'count': 4, "
+         "'min': [-2, 0, -2.2], 'max': [2, 0, 2.2]}, "
+         "{'bufferView': 1, 'componentType': 5126, 'type': 'VEC3', 'count': 4, "
+         "'min': [-3, 0, -3.3], 'max': [3, 0, 3.3]}, "
+         "{'bufferView': 2, 'componentType': 5123, 'type': 'SCALAR', 'count': 6}], "
+         "'materials': [ "
+         "{'doubleSided': true, 'emissiveFactor': [0.25, 0.25, 0.25], "
+         "'pbrMetallicRoughness': {'baseColorFactor': [0, 0, 0, 1]}}, "
+         "{'doubleSided': true, 'emissiveFactor': [0.75, 0.75, 0.75], "
+         "'pbrMetallicRoughness': {'baseColorFactor': [0, 0, 0, 1]}}], "
+         "'meshes': [ "
+         "{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 2, 'material': 0}]}, "
+         "{'primitives': [{'attributes': {'POSITION': 1}, 'indices': 2, 'material': 1}]}, "
+         "{'primitives': [{'attributes': {'POSITION': 1}, 'indices': 2, 'material': 1}, "
+         "{'attributes': {'POSITION': 0}, 'indices': 2, 'material': 0}]}], "
+         "'scene': 0, " +
+             nodes + "}");
   };
 
-  const std::string sections = R"("scene": [{"model": "m.gltf"}])";
-  gltf(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "children": [1]}, {"mesh": 1}])");
+  const std::string sections = "'scene': [{'model': 'm.gltf'}]";
+  gltf("'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0, 'children': [1]}, {'mesh': 1}]");
   expectSeen(sections, kLate);
 
   // The scene lists its root nodes in another order than the file does.
-  gltf(R"("scenes": [{"nodes": [1, 2, 0]}],
-          "nodes": [{"mesh": 1}, {"mesh": 0}, {"mesh": 0, "translation": [20, 0, 0]}])");
+  gltf(
+      "'scenes': [{'nodes': [1, 2, 0]}], "
+      "'nodes': [{'mesh': 1}, {'mesh': 0}, {'mesh': 0, 'translation': [20, 0, 0]}]");
   expectSeen(sections, kLate);
 
-  gltf(R"("scenes": [{"nodes": [0, 1, 2]}],
-          "nodes": [{"mesh": 1}, {"mesh": 0}, {"mesh": 1, "translation": [20, 0, 0]}])");
+  gltf(
+      "'scenes': [{'nodes': [0, 1, 2]}], "
+      "'nodes': [{'mesh': 1}, {'mesh': 0}, {'mesh': 1, 'translation': [20, 0, 0]}]");
   expectSeen(sections, kEarly);
 
-  gltf(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 2}])");
+  gltf("'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 2}]");
   expectSeen(sections, kEarly);
 }
 

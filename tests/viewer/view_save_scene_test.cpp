@@ -71,12 +71,14 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   writePng(folder_ / "sub/maps/t.png", DisplayImage{1, 1, {200, 90, 30, 255}}, {});
   fs::copy(folder_ / "sky.exr", folder_ / "sub/sky.exr");
   save("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  save("sub/s.json", R"({"whit": 1, "parameters": {"fov": 40},
-    "cameras": {"c": {"eye": [0, 1, 4], "at": [0, 0.5, 0], "fov": "$fov"}},
-    "sky": {"image": "sky.exr"}, "ambient": {"fromSky": 0.5},
-    "textures": {"t": {"image": "maps/t.png"}}, "materials": {"m": {"diffuseMap": "t"}},
-    "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
-    "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})");
+  save(
+      "sub/s.json",
+      asJson("{'whit': 1, 'parameters': {'fov': 40}, "
+             "'cameras': {'c': {'eye': [0, 1, 4], 'at': [0, 0.5, 0], 'fov': '$fov'}}, "
+             "'sky': {'image': 'sky.exr'}, 'ambient': {'fromSky': 0.5}, "
+             "'textures': {'t': {'image': 'maps/t.png'}}, 'materials': {'m': {'diffuseMap': 't'}}, "
+             "'objects': {'o': [{'group': [{'model': 'm.obj'}]}]}, "
+             "'scene': [{'shape': 'quad', 'material': 'm'}, {'use': 'o'}]}"));
 
   const Words lines =
       commandsOf(1,
@@ -147,8 +149,9 @@ TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
 TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
   const cli::TemporaryFolder elsewhere;
   fs::copy(folder_ / "sky.exr", elsewhere / "sky.exr");
-  std::ofstream(elsewhere / "far.json") << R"({"whit": 1, "sky": {"image": "sky.exr"},
-    "scene": [{"shape": "sphere"}]})";
+  std::ofstream(elsewhere / "far.json") << asJson(
+      "{'whit': 1, 'sky': {'image': 'sky.exr'}, "
+      "'scene': [{'shape': 'sphere'}]}");
 
   const Words lines = commandsOf(1, "drop " + (elsewhere / "far.json") +
                                         "\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
