@@ -205,7 +205,7 @@ constexpr LoadOption kLoadOptions[] = {
 
 TEST_F(EveryOption, OfLoadingChangesWhatItSays) {
   std::filesystem::create_directory(folder_ / "inner");
-  save("inner/scene.json", R"({"whit": 1, "scene": [{"model": "../a.obj"}]})");
+  save("inner/scene.json", "{'whit': 1, 'scene': [{'model': '../a.obj'}]}");
   save("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   save("mended.obj", bytesOf("a.obj") + "f 1 1 2\n");
 

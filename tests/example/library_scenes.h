@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "as_json.h"
 #include "library/whit.h"
 #include "temporary_folder.h"
 

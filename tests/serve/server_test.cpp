@@ -448,10 +448,11 @@ class ServingNoScene : public Serving {
   ServingNoScene() {
     std::filesystem::create_directory(shipped_);
     std::filesystem::copy(folder_ / "tiny.json", shipped_ + "/aa.json");
-    std::ofstream(shipped_ + "/ab.json") << R"({"whit": 1, "size": [48, 32],
-      "cameras": {"front": {"eye": [0, 0, 6], "at": [0, 0, 0]}}, "sky": {"color": 0.5},
-      "scene": [{"shape": "box", "motion": {"loop": true, "keys": [
-        {"time": 0}, {"time": 10, "rotate": [0, 1, 0, 360]}]}}]})";
+    std::ofstream(shipped_ + "/ab.json") << asJson(
+        "{'whit': 1, 'size': [48, 32], 'sky': {'color': 0.5},"
+        "'cameras': {'front': {'eye': [0, 0, 6], 'at': [0, 0, 0]}},"
+        "'scene': [{'shape': 'box', 'motion': {'loop': true, 'keys': ["
+        "{'time': 0}, {'time': 10, 'rotate': [0, 1, 0, 360]}]}}]}");
     setenv("WHIT_SCENES", shipped_.c_str(), 1);
     view::settleViewOptions(none_);  // scenes play
     none_.scene.clear();
