@@ -8,6 +8,7 @@
 #include "io/member_rows.h"
 #include "run_here.h"
 #include "simd/kernels.h"
+#include "source_files.h"
 
 namespace whit::cli {
 namespace {
@@ -210,8 +211,7 @@ TEST_F(EveryOption, OfLoadingChangesWhatItSays) {
   save("mended.obj", bytesOf("a.obj") + "f 1 1 2\n");
 
   // The animation named "all" comes first, and "first" moves less.
-  Json moving = Json::parse(readFile(std::string(std::getenv("WHIT_SOURCE_DIR")) +
-                                     "/tests/fuzz/corpus/gltf/motion.gltf"));
+  Json moving = Json::parse(sourceText("tests/fuzz/corpus/gltf/motion.gltf"));
   Json& animation = moving.at("animations").at(0);
   animation["name"] = "all";
   Json first = animation;

@@ -36,6 +36,10 @@ inline void expectFailed(const Outcome& outcome, int status, const std::string& 
   EXPECT_TRUE(hasText(outcome.err, said));
 }
 
+inline void expectMembers(const Json& json, const Json& members) {
+  for (const auto& [key, value] : members.items()) EXPECT_EQ(json[key], value) << key;
+}
+
 // Gives each test a folder of its own with the tiny scene in it, where its commands run. Names of
 // files are names in this folder.
 class TinySceneTest : public testing::Test {
