@@ -7,7 +7,6 @@
 #include <array>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "as_json.h"
 #include "library/whit.h"
