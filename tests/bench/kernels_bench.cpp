@@ -143,7 +143,7 @@ void registerAll(Subject& subject, std::vector<std::string>& known) {
   BenchTile& tile = subject.made();
   tile.plan().forEachStep([&](const Step& step) {
     const std::string name = step.name + "/" + subject.target;
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (contains(known, name)) return;
     known.push_back(name);
 
     registerOne(

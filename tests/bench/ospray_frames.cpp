@@ -7,7 +7,6 @@
 #include <ospray/ospray_util.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -167,9 +167,10 @@ TEST_F(Channels, OfFramesAreThoseOfEachAlone) {
 
 // Eight pixels are a unit, and the ball moves by (0.5, -0.25) units a second.
 TEST_F(Channels, MotionIsThatOfOneFrame) {
-  save("ball.json", R"({"whit": 1, "size": [64, 64], "cameras": {"c":
-    {"eye": [0, 0, 9], "at": [0, 0, 0], "orthographicHeight": 8}}, "ambient": {"color": 1}, "scene":
-    [{"shape": "sphere", "motion": {"keys": [{"time": 0}, {"time": 4, "translate": [2, -1, 0]}]}}]})");
+  save("ball.json",
+       "{'whit': 1, 'size': [64, 64], 'ambient': {'color': 1}, 'cameras': {'c':"
+       "{'eye': [0, 0, 9], 'at': [0, 0, 0], 'orthographicHeight': 8}}, 'scene': [{'shape':"
+       "'sphere', 'motion': {'keys': [{'time': 0}, {'time': 4, 'translate': [2, -1, 0]}]}}]}");
   succeed("render ball.json -o a.motion.exr --time 2 --fps 4");
 
   const Image image = imageIn("a.motion.exr");

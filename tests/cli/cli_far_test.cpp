@@ -41,13 +41,13 @@ std::string plyOf(double share) {
 // A triangle that sways, seen by a camera of its own.
 std::string gltfOf(double share) {
   GltfBuilder b;
-  return asJson(b.json(joined(
+  return b.json(joined(
       "'nodes':[{'translation':[", share * kAway[0] - 0.5, ",0,", share * kAway[2],
       "],'children':[1,2]},{'mesh':0},{'camera':0,'translation':[0.5,0.5,4]}],'scenes':[{'nodes':"
       "[0]}],'cameras':[{'type':'perspective','perspective':{'yfov':0.5}}],'meshes':[{"
       "'primitives':[",
       primitive(b.positions(kTriangleXyz)), "]}]",
-      b.played(b.animation("translation", {0, 1, 2}, kTriangleXyz, 1)))));
+      b.played(b.animation("translation", {0, 1, 2}, kTriangleXyz, 1))));
 }
 
 struct Format {
@@ -96,15 +96,15 @@ TEST_F(FarModels, LookAsAtTheOrigin) {
 // A scene file says itself where its models are.
 TEST_F(FarModels, LookAsAtTheOriginInScenesThatBringThemBack) {
   const auto scene = [](const std::string& item) {
-    return R"({"whit": 1, "cameras": {"c": {"eye": [2, 2, 4], "at": [0, 0, 0]}},
-      "lights": [{"position": [3, 6, 4], "intensity": 60}], "scene": [{"model": )" +
+    return "{'whit': 1, 'cameras': {'c': {'eye': [2, 2, 4], 'at': [0, 0, 0]}},"
+           "'lights': [{'position': [3, 6, 4], 'intensity': 60}], 'scene': [{'model': " +
            item + "}]}";
   };
   for (const Format& format : kFormats) {
-    const std::string ending = std::string(".") + format.extension + "\"";
+    const std::string ending = std::string(".") + format.extension + "'";
     save("far.json",
-         scene("\"far" + ending + R"(, "transform": {"translate": [-4000000, 0, -500000]})"));
-    save("near.json", scene("\"near" + ending));
+         scene("'far" + ending + ", 'transform': {'translate': [-4000000, 0, -500000]}"));
+    save("near.json", scene("'near" + ending));
     EXPECT_EQ(hashOf("far.json", false), hashOf("near.json", false));
   }
 }
@@ -115,7 +115,7 @@ TEST_F(FarModels, AreSeenFromTheEyeInTheirFile) {
               "near.obj --eye 0.5,2.25,3 --at 0.125,0.5,0");
 
   save("pose.json",
-       R"({"eye": [4000000.5, 2.25, 500003], "at": [4000000.125, 0.5, 500000], "fov": 50})");
+       "{'eye': [4000000.5, 2.25, 500003], 'at': [4000000.125, 0.5, 500000], 'fov': 50}");
   expectAlike(
       "far.obj --camera pose.json",
       R"(near.obj --camera c --set /cameras/c={"eye":[0.5,2.25,3],"at":[0.125,0.5,0],"fov":50})");

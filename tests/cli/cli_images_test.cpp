@@ -247,9 +247,10 @@ TEST_F(Images, ATransparentBackgroundIsAlpha) {
 }
 
 TEST_F(Images, AreComparedByPremultipliedColors) {
-  save("half.json", R"({"whit": 1, "scene": [{"shape": "quad", "material": "m"}],
-    "materials": {"m": {"diffuse": 0, "emission": [1, 0.5, 0.2], "coverage": 0.5}},
-    "cameras": {"above": {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1]}}})");
+  save("half.json",
+       "{'whit': 1, 'scene': [{'shape': 'quad', 'material': 'm'}],"
+       "'materials': {'m': {'diffuse': 0, 'emission': [1, 0.5, 0.2], 'coverage': 0.5}},"
+       "'cameras': {'above': {'eye': [0, 3, 0], 'at': [0, 0, 0], 'up': [0, 0, -1]}}}");
   succeed("render half.json -o a.png -o a.exr --size 8x8 --background transparent");
 
   // Half a code of a color near white, and of alpha, is less than this.

@@ -4,6 +4,7 @@
 
 #include "run_command.h"
 #include "sanitized.h"
+#include "source_files.h"
 
 namespace whit::cli {
 namespace {
@@ -95,8 +96,7 @@ TEST_F(Limits, AFilmWithoutMemoryIsALimit) {
 // The child process that decodes the mesh takes a part of the addresses that are left.
 TEST_F(Limits, DracoWorksUnderALimitOfAddressSpace) {
   if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";
-  const std::string model =
-      std::string(std::getenv("WHIT_SOURCE_DIR")) + "/tests/fuzz/corpus/gltf/draco.glb";
+  const std::string model = sourceFile("tests/fuzz/corpus/gltf/draco.glb");
   const Outcome outcome = run("info " + model, [] { limit(RLIMIT_AS, rlim_t{6'000'000} << 10); });
   if (outcome.err.find("KHR_draco_mesh_compression") != std::string::npos) {
     GTEST_SKIP() << "built without libdraco";

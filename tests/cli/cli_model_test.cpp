@@ -36,11 +36,12 @@ TEST_F(Models, VariantsAreListedAndChosen) {
       primitive(b.positions(kTriangleXyz), "",
                 ",'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,"
                 "'variants':[1]}]}}");
-  save("variants.gltf", asJson(b.json(oneMesh(mapped) + R"(,
-    'materials': [{'name': 'dark', 'emissiveFactor': [0, 0, 0]},
-                  {'name': 'red', 'emissiveFactor': [1, 0, 0]}],
-    'extensions': {'KHR_materials_variants': {
-      'variants': [{'name': 'plain'}, {'name': 'glowing \"red\"'}]}})")));
+  save("variants.gltf",
+       b.json(oneMesh(mapped) +
+              ",'materials': [{'name': 'dark', 'emissiveFactor': [0, 0, 0]},"
+              "               {'name': 'red', 'emissiveFactor': [1, 0, 0]}],"
+              "'extensions': {'KHR_materials_variants': {"
+              "  'variants': [{'name': 'plain'}, {'name': 'glowing \\\"red\\\"'}]}}"));
 
   EXPECT_EQ(jsonOf("info variants.gltf")["variants"], Json({"plain", "glowing \"red\""}));
   EXPECT_TRUE(hasText(succeed("info variants.gltf").out, "variant     plain\n"));
@@ -84,7 +85,7 @@ TEST_F(Models, ASceneFileCanShowOneAsTheCommandDoes) {
   // The codes of a scene that shows the model and has these members.
   const auto shownWith = [&](const std::string& members, const std::string& words = "") {
     save("scene.json",
-         R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}])" + members + "}");
+         "{'whit': 1, 'view': 'model', 'scene': [{'model': 'model.obj'}]" + members + "}");
     return codesOf("scene.json " + words);
   };
 
@@ -93,29 +94,29 @@ TEST_F(Models, ASceneFileCanShowOneAsTheCommandDoes) {
   EXPECT_EQ(shownWith("", "--sky none"), codesOf("model.obj --sky none"));
 
   // The studio suits the lights, whether it is named or not.
-  const std::string lights = R"(, "lights": [{"position": [0, 9, 0], "intensity": 0.01}])";
+  const std::string lights = ", 'lights': [{'position': [0, 9, 0], 'intensity': 0.01}]";
   EXPECT_EQ(shownWith(lights, "--sky studio"), shownWith(lights));
 
   // What the file has is kept.
-  const Codes dark = shownWith(R"(, "options": {"exposure": -3})");
+  const Codes dark = shownWith(", 'options': {'exposure': -3}");
   EXPECT_EQ(dark, codesOf("model.obj --exposure -3"));
   EXPECT_NE(dark, shown);
   const Codes unexposed = codesOf("model.obj --exposure 0");
-  for (const char* own : {R"("sky": {"color": [1, 0, 0]})", R"("ambient": {"color": [1, 0, 0]})",
-                          R"("lights": [{"position": [0, 9, 0], "intensity": 50}])",
-                          R"("cameras": {"near": {"eye": [0.5, 0.5, 1], "at": [0.5, 0.5, 0]}})"}) {
-    EXPECT_NE(shownWith(R"(, "options": {"exposure": 0}, )" + std::string(own)), unexposed) << own;
+  for (const char* own : {"'sky': {'color': [1, 0, 0]}", "'ambient': {'color': [1, 0, 0]}",
+                          "'lights': [{'position': [0, 9, 0], 'intensity': 50}]",
+                          "'cameras': {'near': {'eye': [0.5, 0.5, 1], 'at': [0.5, 0.5, 0]}}"}) {
+    EXPECT_NE(shownWith(", 'options': {'exposure': 0}, " + std::string(own)), unexposed) << own;
   }
 }
 
 // One camera by three ways: a file of its own, a setting, and a scene file.
 TEST_F(Models, TakeACameraFromAFile) {
-  const std::string pose =
-      R"({"eye":[0.5,1.5,4],"at":[0.8,0.5,0],"k":[40,44,23,16],"kSize":[48,30],)"
-      R"("distortion":[0.1,0.02]})";
+  const std::string pose = asJson(
+      "{'eye':[0.5,1.5,4],'at':[0.8,0.5,0],'k':[40,44,23,16],'kSize':[48,30],"
+      "'distortion':[0.1,0.02]}");
   save("pose.json", pose);
   save("scene.json",
-       R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}], "cameras": {"own": )" +
+       "{'whit': 1, 'view': 'model', 'scene': [{'model': 'model.obj'}], 'cameras': {'own': " +
            pose + "}}");
 
   const Codes seen = codesOf("model.obj --camera pose.json");

@@ -11,9 +11,9 @@ std::string movingModel() {
   GltfBuilder b;
   const std::string up = b.animation(
       {{"translation", {0, 2}, {0, 0, 0, 0, 2, 0}}, {"scale", {0, 2}, {1, 1, 1, 0, 0, 0}, 1}});
-  return asJson(b.json("'meshes':[{'primitives':[" + primitive(b.positions(kTriangleXyz)) +
-                       "]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[2,0,0]}]" +
-                       b.played(b.named("up", up))));
+  return b.json("'meshes':[{'primitives':[" + primitive(b.positions(kTriangleXyz)) +
+                "]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[2,0,0]}]" +
+                b.played(b.named("up", up)));
 }
 
 class Motion : public TinySceneTest {
@@ -57,7 +57,7 @@ TEST_F(Motion, AnInstantIsTheFrameAtItsTime) {
 TEST_F(Motion, IsTimedAndListed) {
   EXPECT_TRUE(hasText(succeed("info moving.gltf").out, "animation   up: 2 s, moves 2 nodes\n"));
   EXPECT_EQ(jsonOf("info moving.gltf")["animations"],
-            Json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
+            Json::parse(asJson("[{'name': 'up', 'seconds': 2, 'nodes': 2}]")));
 
   const Outcome film =
       succeed("render moving.gltf -o f#.png --frames 0..1 --size 32x20 --stats --json f.json");

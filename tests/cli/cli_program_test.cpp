@@ -125,9 +125,8 @@ TEST_F(Program, RefusesBadFiles) {
   const std::string wantsPose = "whit.Camera.from_k(K, pose";
   const BadFile files[] = {
       {"info broken.json", "{\n  \"whit\": 1,\n  \"size\": [48,\n}\n", "broken.json:4"},
-      {"info wrong.json", R"({"whit": 1, "size": ["wide", 3]})", "wrong.json#/size"},
-      {"info view.json", R"({"whit": 1, "view": "round", "scene": []})",
-       "view.json#/view: expected"},
+      {"info wrong.json", "{'whit': 1, 'size': ['wide', 3]}", "wrong.json#/size"},
+      {"info view.json", "{'whit': 1, 'view': 'round', 'scene': []}", "view.json#/view: expected"},
       {"compare no.png no.png", "this is no image", "no.png"},
       {"render bad.glb", "", notGlb},
       {"render bad.glb", "garbage", notGlb},
@@ -141,20 +140,20 @@ TEST_F(Program, RefusesBadFiles) {
       {"render wrong.obj", "solid a\n", notObj + ".stl"},
 
       // A roboticist has a matrix and a pose.
-      {"render tiny.json --camera c.json", R"({"pose": []})", wantsPose},
-      {"render tiny.json --camera c.json", R"({"K": []})", wantsPose},
-      {"info tiny.json --camera c.json", R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3})",
+      {"render tiny.json --camera c.json", "{'pose': []}", wantsPose},
+      {"render tiny.json --camera c.json", "{'K': []}", wantsPose},
+      {"info tiny.json --camera c.json", "{'eye': [0, 0, 1], 'at': [0, 0, 0], 'lens': 3}",
        "c.json#/lens: "},
       {"info tiny.json --camera c.json",
-       R"({"eye": [0, 0, 1], "at": [0, 0, 0], "motion": {"keys": [{"time": "soon"}]}})",
+       "{'eye': [0, 0, 1], 'at': [0, 0, 0], 'motion': {'keys': [{'time': 'soon'}]}}",
        "c.json#/motion/keys/0/time: "},
       {"info tiny.json --camera c.json",
-       R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3, "motion": {"keys": [{"time": 0}]}})",
+       "{'eye': [0, 0, 1], 'at': [0, 0, 0], 'lens': 3, 'motion': {'keys': [{'time': 0}]}}",
        "c.json#/lens: "},
       {"info tiny.json --camera c.json", "{\n\"eye\" [", "c.json:2"},
 
       // A file must not be able to clear the screen, or to write lines of its own.
-      {"info escape.json", R"({"whit": 1, "a\u001b[2Jb\nwhit: done": 1})",
+      {"info escape.json", "{'whit': 1, 'a\\u001b[2Jb\\nwhit: done': 1}",
        "#/a\\x1b[2Jb\\x0awhit: done: unknown key"},
   };
   for (const BadFile& file : files) {
@@ -164,9 +163,10 @@ TEST_F(Program, RefusesBadFiles) {
 }
 
 TEST_F(Program, ControlCharactersOfFilesAreSpelled) {
-  save("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["A\u001bB"],
-    "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
-    "nodes": [{"camera": 0, "name": "C\u0007D"}]})");
+  save("a.gltf",
+       "{'asset': {'version': '2.0'}, 'extensionsUsed': ['A\\u001bB'],"
+       "'cameras': [{'type': 'perspective', 'perspective': {'yfov': 1, 'znear': 1}}],"
+       "'nodes': [{'camera': 0, 'name': 'C\\u0007D'}]}");
 
   const std::string told = succeed("info a.gltf").out, ignored = "extension ignored: A\\x1bB";
   EXPECT_TRUE(hasText(told, ignored));

@@ -164,8 +164,9 @@ TEST_F(MemoryMb, IsInMillionsOfBytes) {
     save("a.tga", head + std::string(3 * std::size_t(side) * side, 'x'));
     return jsonOf("info a.json")["memory_mb"].get<double>();
   };
-  save("a.json", R"({"whit": 1, "textures": {"t": {"image": "a.tga"}},
-      "materials": {"m": {"diffuseMap": "t"}}, "scene": [{"shape": "quad", "material": "m"}]})");
+  save("a.json",
+       "{'whit': 1, 'textures': {'t': {'image': 'a.tga'}},"
+       "'materials': {'m': {'diffuseMap': 't'}}, 'scene': [{'shape': 'quad', 'material': 'm'}]}");
   const double more = memoryOf(1024) - memoryOf(16);
   EXPECT_GT(more, 4.1);
   EXPECT_LT(more, 4.2 * 3);

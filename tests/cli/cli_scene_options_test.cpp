@@ -29,7 +29,7 @@ RenderOptions settled(const std::map<std::string, std::string>& stated,
 }
 
 TEST_F(SceneOptions, AreThoseOfThePlainCommand) {
-  saveStating(R"("spp": 2, "depth": 1, "terminator": true, "exposure": 1.5, "tonemap": "filmic")");
+  saveStating("'spp': 2, 'depth': 1, 'terminator': true, 'exposure': 1.5, 'tonemap': 'filmic'");
   succeed("render stating.json -o a.exr -o a.png");
   succeed(
       "render tiny.json -o b.exr -o b.png --spp 2 --depth 1 --terminator on --exposure 1.5 "
@@ -91,7 +91,7 @@ TEST(SettledOptions, OfScenesAreThoseThatDescribeThePicture) {
 }
 
 TEST_F(SceneOptions, InfoSaysWhereTheyComeFrom) {
-  saveStating(R"("spp": 8, "indirect": 4, "glossy": 2)");
+  saveStating("'spp': 8, 'indirect': 4, 'glossy': 2");
   EXPECT_TRUE(hasText(succeed("info stating.json").out,
                       "options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"));
 
@@ -108,7 +108,7 @@ TEST_F(SceneOptions, InfoSaysWhereTheyComeFrom) {
 }
 
 TEST_F(SceneOptions, AreResumedAndCropped) {
-  saveStating(R"("spp": 2, "exposure": 1)");
+  saveStating("'spp': 2, 'exposure': 1");
   const std::string resuming = "render stating.json -o a.exr --resume";
   succeed(resuming);
   EXPECT_TRUE(keeps("a.exr", resuming));
@@ -119,12 +119,12 @@ TEST_F(SceneOptions, AreResumedAndCropped) {
   succeed("merge m.exr l.exr r.exr");
   EXPECT_EQ(storedIn("m.exr").values, storedIn("a.exr").values);
 
-  saveStating(R"("spp": 3, "exposure": 1)");
+  saveStating("'spp': 3, 'exposure': 1");
   EXPECT_FALSE(keeps("a.exr", resuming));
 }
 
 TEST_F(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
-  saveStating(R"("background": "transparent")");
+  saveStating("'background': 'transparent'");
   expectFailure("render stating.json -o a.jpg", 2, "has no alpha");
   EXPECT_FALSE(exists("a.jpg"));
 
@@ -134,7 +134,7 @@ TEST_F(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
 }
 
 TEST_F(SceneOptions, AreNotMeasured) {
-  saveStating(R"("spp": 4)");
+  saveStating("'spp': 4");
   EXPECT_EQ(jsonOf("bench stating.json --frames 1")["runs"][0]["rays"]["primary"], 48 * 32);
 }
 

@@ -1,5 +1,4 @@
 // Turntables and films as users make them.
-#include <algorithm>
 #include <cmath>
 
 #include "core/option_table.h"
@@ -211,10 +210,10 @@ TEST_F(Film, ColorsAreThoseOfBt709) {
   fs::rename(folder_ / "10:30/film.mp4", folder_ / "film.mp4");
 
   const Json stream = probed("color_range,color_space,color_transfer,color_primaries");
-  EXPECT_EQ(stream["color_range"], "tv");
-  EXPECT_EQ(stream["color_space"], "bt709");
-  EXPECT_EQ(stream["color_primaries"], "bt709");
-  EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
+  expectMembers(stream, {{"color_range", "tv"},
+                         {"color_space", "bt709"},
+                         {"color_primaries", "bt709"},
+                         {"color_transfer", "iec61966-2-1"}});
 
   const std::string decode =
       "ffmpeg -v error -i " + folder_ / "film.mp4" + " -f rawvideo " + folder_ / "planes";
@@ -236,9 +235,7 @@ TEST_F(Film, OfTheHelmet) {
 
   succeed("turntable " + helmet + " -o film.mp4 --size 40x30");
   const Json stream = probed("width,height,nb_frames,duration");
-  EXPECT_EQ(stream["width"], 40);
-  EXPECT_EQ(stream["height"], 30);
-  EXPECT_EQ(stream["nb_frames"], "96");
+  expectMembers(stream, {{"width", 40}, {"height", 30}, {"nb_frames", "96"}});
   EXPECT_EQ(std::stod(stream["duration"].get<std::string>()), 4.0);
 }
 

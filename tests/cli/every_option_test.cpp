@@ -8,6 +8,7 @@
 #include "io/member_rows.h"
 #include "run_here.h"
 #include "simd/kernels.h"
+#include "source_files.h"
 
 namespace whit::cli {
 namespace {
@@ -205,13 +206,12 @@ constexpr LoadOption kLoadOptions[] = {
 
 TEST_F(EveryOption, OfLoadingChangesWhatItSays) {
   std::filesystem::create_directory(folder_ / "inner");
-  save("inner/scene.json", R"({"whit": 1, "scene": [{"model": "../a.obj"}]})");
+  save("inner/scene.json", "{'whit': 1, 'scene': [{'model': '../a.obj'}]}");
   save("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   save("mended.obj", bytesOf("a.obj") + "f 1 1 2\n");
 
   // The animation named "all" comes first, and "first" moves less.
-  Json moving = Json::parse(readFile(std::string(std::getenv("WHIT_SOURCE_DIR")) +
-                                     "/tests/fuzz/corpus/gltf/motion.gltf"));
+  Json moving = Json::parse(sourceText("tests/fuzz/corpus/gltf/motion.gltf"));
   Json& animation = moving.at("animations").at(0);
   animation["name"] = "all";
   Json first = animation;

@@ -36,12 +36,18 @@ inline void expectFailed(const Outcome& outcome, int status, const std::string& 
   EXPECT_TRUE(hasText(outcome.err, said));
 }
 
+inline void expectMembers(const Json& json, const Json& members) {
+  for (const auto& [key, value] : members.items()) EXPECT_EQ(json[key], value) << key;
+}
+
 // Gives each test a folder of its own with the tiny scene in it, where its commands run. Names of
 // files are names in this folder.
 class TinySceneTest : public testing::Test {
  protected:
+  // Scenes and glTF files may have ' in place of ".
   void save(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    const bool isJson = name.ends_with(".json") || name.ends_with(".gltf");
+    std::ofstream(folder_ / name, std::ios::binary) << (isJson ? asJson(text) : text);
   }
   // Saves the tiny scene with other words in the place of some.
   void saveTiny(const std::string& name, const std::string& words,

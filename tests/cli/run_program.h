@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "as_json.h"
 #include "temporary_folder.h"
 
 namespace whit::cli {
@@ -87,18 +88,17 @@ inline Outcome runWhit(
 // Writes a scene with a floor, a mirrored ball, a light with shadows, two cameras and a path. It
 // traces primary, shadow and reflected rays, onto a few hundred triangles.
 inline std::string writeTinyScene(const TemporaryFolder& folder) {
-  std::ofstream(folder / "tiny.json") << R"({
-    "whit": 1, "size": [48, 32],
-    "cameras": {"front": {"eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40},
-                "side": {"eye": [6, 2, 0], "at": [0, 1, 0], "fov": 40}},
-    "path": [{"time": 0, "eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40},
-             {"time": 1, "eye": [6, 2, 0]}],
-    "lights": [{"name": "lamp", "position": [3, 6, 4], "intensity": [60, 60, 60]}],
-    "materials": {"floor": {"diffuse": 0.5}, "mirror": {"diffuse": 0.1, "mirror": 0.8}},
-    "scene": [{"shape": "quad", "width": 8, "depth": 8, "material": "floor"},
-              {"shape": "icosphere", "radius": 1, "level": 2, "material": "mirror",
-               "transform": {"translate": [0, 1, 0]}}]
-  })";
+  std::ofstream(folder / "tiny.json") << asJson(
+      "{'whit': 1, 'size': [48, 32],"
+      "'cameras': {'front': {'eye': [0, 2, 6], 'at': [0, 1, 0], 'fov': 40},"
+      "            'side': {'eye': [6, 2, 0], 'at': [0, 1, 0], 'fov': 40}},"
+      "'path': [{'time': 0, 'eye': [0, 2, 6], 'at': [0, 1, 0], 'fov': 40},"
+      "         {'time': 1, 'eye': [6, 2, 0]}],"
+      "'lights': [{'name': 'lamp', 'position': [3, 6, 4], 'intensity': [60, 60, 60]}],"
+      "'materials': {'floor': {'diffuse': 0.5}, 'mirror': {'diffuse': 0.1, 'mirror': 0.8}},"
+      "'scene': [{'shape': 'quad', 'width': 8, 'depth': 8, 'material': 'floor'},"
+      "          {'shape': 'icosphere', 'radius': 1, 'level': 2, 'material': 'mirror',"
+      "           'transform': {'translate': [0, 1, 0]}}]}");
   return folder / "tiny.json";
 }
 

@@ -51,7 +51,7 @@ TEST_F(TinySceneTest, NoFileIsWrittenOverAnother) {
   for (const char* file : {"a.png", "b.png", "f0001.png", "part.exr", "other.exr"}) {
     save(file, "not looked at");
   }
-  save("eye.json", R"({"eye": [0, 2, 6], "at": [0, 1, 0]})");
+  save("eye.json", "{'eye': [0, 2, 6], 'at': [0, 1, 0]}");
 
   const auto contents = [&] {
     std::map<std::string, std::string> all;

@@ -7,8 +7,8 @@
 #include <array>
 #include <functional>
 #include <string>
-#include <vector>
 
+#include "as_json.h"
 #include "library/whit.h"
 #include "temporary_folder.h"
 

@@ -65,8 +65,8 @@ struct Inside {
 };
 
 TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
-  SceneBuilder builder("scene", R"({"options": {"spp": 2, "exposure": 1, "tonemap": "filmic"},
-                                    "scene": [{"shape": "box"}]})");
+  SceneBuilder builder("scene", asJson("{'options': {'spp': 2, 'exposure': 1, 'tonemap': 'filmic'},"
+                                       "'scene': [{'shape': 'box'}]}"));
   Renderer renderer(builder.build());
   EXPECT_EQ(renderer.get("depth"), "64");
   EXPECT_EQ(renderer.get("size"), "");
@@ -306,7 +306,7 @@ TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
 TEST(Library, ScenesThatAreNotGoodSayWhere) {
   const TemporaryFolder folder;
   const std::string file = folder / "bad.json";
-  std::ofstream(file) << R"({"whit": 1, "size": ["wide", 3]})";
+  std::ofstream(file) << asJson("{'whit': 1, 'size': ['wide', 3]}");
   const Error error = errorOf([&] { loadScene(file); });
   EXPECT_EQ(error.status(), 3);
   EXPECT_TRUE(hasText(error.what(), "#/size"));
@@ -341,11 +341,11 @@ TEST(Library, ScenesMoveAndComeBack) {
 }
 
 std::string writeLoose(const std::filesystem::path& file, const std::string& place) {
-  std::ofstream(file) << "{\"whit\": 1, \"cameras\": {\"c\": {\"eye\": [0, 0, 9], \"at\": [0, 0, 0]"
-                      << place << "}}, \"lights\": [{\"position\": [3, 5, 6], \"intensity\": 90"
-                      << place << "}], \"scene\": [{\"shape\": \"box\"}, {\"group\": [{\"shape\": "
-                      << "\"sphere\"" << place
-                      << "}], \"transform\": {\"translate\": [2, 0, 0]}}]}";
+  std::ofstream(file) << asJson("{'whit': 1, 'cameras': {'c': {'eye': [0, 0, 9], 'at': [0, 0, 0]" +
+                                place + "}}, 'lights': [{'position': [3, 5, 6], 'intensity': 90" +
+                                place +
+                                "}], 'scene': [{'shape': 'box'}, {'group': [{'shape': 'sphere'" +
+                                place + "}], 'transform': {'translate': [2, 0, 0]}}]}");
   return file.string();
 }
 
@@ -353,9 +353,9 @@ std::string writeLoose(const std::filesystem::path& file, const std::string& pla
 TEST(Library, ThingsAreMovedByHand) {
   const TemporaryFolder folder;
   const std::string loose = writeLoose(folder / "loose.json", "");
-  const std::string stated = writeLoose(
-      folder / "placed.json",
-      ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
+  const std::string stated =
+      writeLoose(folder / "placed.json",
+                 ", 'motion': {'keys': [{'time': 0, 'translate': [-1, 0.5, 0], 'scale': 2}]}");
 
   LoadOptions moving;
   moving.movable = {"/cameras/c", "/lights/0", "/scene/1/group/0"};

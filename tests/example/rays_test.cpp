@@ -236,10 +236,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 Renderer rendererOf(const char* json) {
-  return Renderer(SceneBuilder("rays", json).build({.moves = true}));
+  return Renderer(SceneBuilder("rays", asJson(json)).build({.moves = true}));
 }
 
-Renderer unitSphere() { return rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})"); }
+Renderer unitSphere() { return rendererOf("{'scene': [{'shape': 'sphere', 'radius': 1}]}"); }
 
 using Points = std::vector<std::array<double, 2>>;
 
@@ -258,7 +258,7 @@ SceneBuilder withSquare(const std::string& json) {
   static constexpr float kPositions[] = {-.5f, -.5f, 0, .5f, -.5f, 0, .5f, .5f, 0, -.5f, .5f, 0};
   static constexpr float kUvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
   static constexpr std::uint32_t kTriangles[] = {0, 1, 2, 0, 2, 3};
-  SceneBuilder builder("rays", json);
+  SceneBuilder builder("rays", asJson(json));
   builder.addMesh("square", {kPositions, kTriangles, {}, kUvs});
   return builder;
 }
@@ -270,9 +270,9 @@ Renderer squaresAt(const std::vector<Matrix>& places, const std::string& json = 
 }
 
 TEST(RayQueries, FindSpheresInClosedForm) {
-  Renderer renderer = rendererOf(R"({"scene": [
-      {"shape": "sphere", "radius": 1},
-      {"shape": "sphere", "radius": 1, "transform": {"translate": [10, 0, 0], "scale": [2, 1, 0.5]}}]})");
+  Renderer renderer = rendererOf(
+      "{'scene': [{'shape': 'sphere', 'radius': 1}, {'shape': 'sphere', 'radius': 1,"
+      "'transform': {'translate': [10, 0, 0], 'scale': [2, 1, 0.5]}}]}");
 
   Points points;
   for (int i = 0; i < 400; ++i) points.push_back({-1.2 + 0.006 * i, 0.3});
@@ -310,7 +310,7 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
                                    {0, -2, 0, 0, 1, 0, 0, 5, 0, 0, 1, -1},
                                    placed({5, 5, 2}, {1e-4, 1e-4, 1})};
   Renderer renderer = squaresAt(
-      places, R"({"scene": [{"shape": "icosphere", "transform": {"translate": [20, 0, 0]}}]})");
+      places, "{'scene': [{'shape': 'icosphere', 'transform': {'translate': [20, 0, 0]}}]}");
 
   std::mt19937 random(5);
   std::uniform_real_distribution<double> inside(-0.49, 0.49);
@@ -334,7 +334,7 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
 }
 
 TEST(RayQueries, HitOneOfCoplanarSurfaces) {
-  SceneBuilder builder = withSquare(R"({"materials": {"a": {}, "b": {}}})");
+  SceneBuilder builder = withSquare("{'materials': {'a': {}, 'b': {}}}");
   builder.addInstance("square", "a");
   builder.addInstance("square", "b");  // written later, so it is hit
   Renderer renderer(builder.build());
@@ -357,8 +357,8 @@ TEST(RayQueries, CountASharedEdgeOnce) {
 }
 
 TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
-  SceneBuilder builder = withSquare(R"({"materials": {
-      "holes": {"alphaMap": "mask"}, "front": {"doubleSided": false}}})");
+  SceneBuilder builder =
+      withSquare("{'materials': {'holes': {'alphaMap': 'mask'}, 'front': {'doubleSided': false}}}");
   static constexpr float kMask[] = {1, 1, 1, 0};  // gray and alpha: the right half is cut
   builder.addTexture("mask", {2, 1, 2, {}, kMask});
   builder.addInstance("square", "holes", placed({0, 0, 1}));
@@ -375,8 +375,9 @@ TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
 }
 
 TEST(RayQueries, AnswerAtThePresentTime) {
-  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1, "motion":
-      {"keys": [{"time": 0}, {"time": 2, "translate": [0, 0, 2]}]}}]})");
+  Renderer renderer = rendererOf(
+      "{'scene': [{'shape': 'sphere', 'radius': 1, 'motion':"
+      "{'keys': [{'time': 0}, {'time': 2, 'translate': [0, 0, 2]}]}}]}");
   const Columns down = downThrough({{0, 0}});
   EXPECT_DOUBLE_EQ(renderer.closest(down).t[0], 1.5);
   renderer.setTime(1);

@@ -47,15 +47,16 @@ std::string writeSheets(const TemporaryFolder& folder) {
   }
   writePng(folder / "dots.png", image, {});
 
-  std::ofstream(folder / "sheets.json") << R"({"whit": 1,
-    "cameras": {"front": {"eye": [0.5, 2, 4], "at": [0, 0, 0]}},
-    "lights": [{"position": [1, 4, 2], "intensity": 30}],
-    "sky": {"color": [0.1, 0.2, 0.3]}, "ambient": {"fromSky": 0.5},
-    "textures": {"dots": {"image": "dots.png"}},
-    "scene": [
-      {"model": "sheet.obj", "materials": {"*": {"diffuse": [0.75, 0.5, 0.25], "diffuseMap": "dots"}}},
-      {"model": "sheet.obj", "materials": {"*": {"diffuse": [0.75, 0.5, 0.25], "diffuseMap": "dots"}},
-       "transform": {"matrix": [0.5, 0, 0, 0, 0, 0.5, 0, 1, 0, 0, 0.5, 0]}}]})";
+  const std::string red =
+      "'materials': {'*': {'diffuse': [0.75, 0.5, 0.25], 'diffuseMap': 'dots'}}";
+  std::ofstream(folder / "sheets.json") << asJson(
+      "{'whit': 1, 'cameras': {'front': {'eye': [0.5, 2, 4], 'at': [0, 0, 0]}},"
+      "'lights': [{'position': [1, 4, 2], 'intensity': 30}],"
+      "'sky': {'color': [0.1, 0.2, 0.3]}, 'ambient': {'fromSky': 0.5},"
+      "'textures': {'dots': {'image': 'dots.png'}}, 'scene': ["
+      "{'model': 'sheet.obj', " +
+      red + "}, {'model': 'sheet.obj', " + red +
+      ", 'transform': {'matrix': [0.5, 0, 0, 0, 0, 0.5, 0, 1, 0, 0, 0.5, 0]}}]}");
   return folder / "sheets.json";
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "as_json.h"
 #include "core/error.h"
 #include "core/warnings.h"
 #include "decoded_texel.h"
@@ -67,12 +68,6 @@ std::string joined(const Parts&... parts) {
 // Appends an item to a list that has commas between its items.
 inline void addItem(std::string& list, const std::string& item) {
   list += (list.empty() ? "" : ",") + item;
-}
-
-// Tests write JSON with ' in place of ", which is easier to read in a literal.
-inline std::string asJson(std::string json) {
-  std::ranges::replace(json, '\'', '"');
-  return json;
 }
 
 // Replaces the first occurrence of a text that has to occur.

@@ -68,9 +68,7 @@ class Serving : public testing::Test {
     root_ = "/" + server_->token() + "/";
 
     thread_ = std::thread([this] { server_->run(); });
-    for (int i = 0; i < 1000 && status(root_) != 200; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+    for (int i = 0; i < 1000 && status(root_) != 200; ++i) pause(5);
   }
 
   ~Serving() override {
@@ -103,6 +101,11 @@ class Serving : public testing::Test {
     return answer ? answer->status : 0;
   }
 
+  // Gives the session the lines of a page.
+  bool say(const std::string& lines) { return session_->post(view::readMessages(lines)); }
+
+  static void pause(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
   // Opens a connection without httplib.
   int connection() const {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -120,6 +123,20 @@ class Serving : public testing::Test {
   static bool send(int socket, const std::string& bytes) {
     return ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(bytes.size());
+  }
+
+  // Opens a connection that asks for a page's pictures.
+  int streaming() const {
+    const int socket = connection();
+    send(socket, "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    return socket;
+  }
+
+  // Reads how an answer begins.
+  static std::string beginning(int socket) {
+    char bytes[16] = {};
+    const auto count = std::max<ssize_t>(::recv(socket, bytes, sizeof bytes, 0), 0);
+    return std::string(bytes, count);
   }
 
   // Reads to the end of the connection, and closes it.
@@ -369,7 +386,7 @@ TEST_F(Serving, EveryVerbIsServed) {
     if (verb.text) line += " 1";
 
     const auto before = session_->wait(0);
-    ASSERT_TRUE(session_->post(view::readMessages(line))) << line;
+    ASSERT_TRUE(say(line)) << line;
     auto shot = session_->wait(before ? before->number : 0);
     // The first picture may be older than the line.
     if (shot) shot = session_->wait(shot->number);
@@ -421,7 +438,7 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
     };
     EXPECT_FALSE(isTold(*rest)) << row.line << " has nothing to change";
 
-    ASSERT_TRUE(session_->post(view::readMessages(row.line))) << row.line;
+    ASSERT_TRUE(say(row.line)) << row.line;
     EXPECT_TRUE(waitFor(isTold)) << row.line << " leaves " << before;
   }
 }
@@ -430,14 +447,14 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
 TEST_F(Serving, ChoicesAfterAPauseAreUndoneOneByOne) {
   session_->watch(1);
   const auto chosen = [&](const char* line, const char* option, const char* value) {
-    EXPECT_TRUE(session_->post(view::readMessages(line)));
+    EXPECT_TRUE(say(line));
     const auto shot = waitFor([&](const Shot& shot) {
       return shot.exact && parseJson(shot.settled, "settled")["options"][option] == value;
     });
     return shot ? parseJson(shot->settled, "settled")["options"] : Json();
   };
   chosen("set depth 3", "depth", "3");
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  pause(700);
   chosen("set spp 2", "spp", "2");
   EXPECT_EQ(chosen("undo", "spp", "1")["depth"], "3");
 }
@@ -448,10 +465,11 @@ class ServingNoScene : public Serving {
   ServingNoScene() {
     std::filesystem::create_directory(shipped_);
     std::filesystem::copy(folder_ / "tiny.json", shipped_ + "/aa.json");
-    std::ofstream(shipped_ + "/ab.json") << R"({"whit": 1, "size": [48, 32],
-      "cameras": {"front": {"eye": [0, 0, 6], "at": [0, 0, 0]}}, "sky": {"color": 0.5},
-      "scene": [{"shape": "box", "motion": {"loop": true, "keys": [
-        {"time": 0}, {"time": 10, "rotate": [0, 1, 0, 360]}]}}]})";
+    std::ofstream(shipped_ + "/ab.json") << asJson(
+        "{'whit': 1, 'size': [48, 32], 'sky': {'color': 0.5},"
+        "'cameras': {'front': {'eye': [0, 0, 6], 'at': [0, 0, 0]}},"
+        "'scene': [{'shape': 'box', 'motion': {'loop': true, 'keys': ["
+        "{'time': 0}, {'time': 10, 'rotate': [0, 1, 0, 360]}]}}]}");
     setenv("WHIT_SCENES", shipped_.c_str(), 1);
     view::settleViewOptions(none_);  // scenes play
     none_.scene.clear();
@@ -584,7 +602,7 @@ TEST_F(Serving, FewConnectionsHaveFewThreads) {
 TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   session_->watch(1);
   const auto commandAt = [&](int width, int height) {
-    EXPECT_TRUE(session_->post(view::readMessages(formatted("size %d %d 1", width, height))));
+    EXPECT_TRUE(say(formatted("size %d %d 1", width, height)));
     // The picture at rest of a page of this size.
     const auto shot = waitFor([&](const Shot& shot) {
       return shot.exact && parseJson(shot.live, "live")["window"] == Json({width, height});
@@ -599,7 +617,7 @@ TEST_F(Serving, AnUprightPageShowsTheWholeModel) {
   EXPECT_FALSE(hasText(commandAt(64, 40), "--eye"));
 
   // A camera that somebody has chosen stays.
-  ASSERT_TRUE(session_->post(view::readMessages("camera 1")));
+  ASSERT_TRUE(say("camera 1"));
   const std::string chosen = commandAt(20, 44);
   EXPECT_TRUE(hasText(chosen, "--camera=side"));
   EXPECT_FALSE(hasText(chosen, "--eye"));
@@ -610,7 +628,7 @@ TEST_F(Serving, PanningFollowsThePointer) {
   session_->watch(1);
   // Returns the point that is looked at after these lines; empty: that of the camera.
   const auto pointAfter = [&](const std::string& lines, bool isMoved) {
-    EXPECT_TRUE(session_->post(view::readMessages(lines)));
+    EXPECT_TRUE(say(lines));
     std::smatch found;
     std::string command;
     EXPECT_TRUE(waitFor([&](const Shot& shot) {
@@ -631,7 +649,7 @@ TEST_F(Serving, PanningFollowsThePointer) {
 // A picture of four million pixels is the largest.
 TEST_F(Serving, ALargePageGetsItsShape) {
   session_->watch(1);
-  EXPECT_TRUE(session_->post(view::readMessages("size 4000 4000 1")));
+  EXPECT_TRUE(say("size 4000 4000 1"));
   EXPECT_TRUE(waitFor([](const Shot& shot) {
     return parseJson(shot.live, "live")["window"] == Json({2000, 2000});
   }));
@@ -718,7 +736,7 @@ TEST_F(Serving, StrangersDoNotDisplaceAPage) {
   });
 
   // Before its token has been read, a page is a stranger as well.
-  while (!pageDraws_ && !done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!pageDraws_ && !done) pause(1);
 
   std::vector<int> strangers;
   for (int i = 0; i < 200; ++i) {
@@ -750,11 +768,8 @@ TEST_F(Serving, GarbageEndsItsOwnConnectionOnly) {
 TEST_F(Serving, SoManyPagesAndNoMoreAreOpen) {
   std::vector<int> open;
   for (int i = 0; i <= kMostPages; ++i) {
-    open.push_back(connection());
-    send(open.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    char bytes[16] = {};
-    const auto count = std::max<ssize_t>(::recv(open.back(), bytes, sizeof bytes, 0), 0);
-    EXPECT_TRUE(hasText(std::string(bytes, count), i < kMostPages ? " 200 " : " 503 ")) << i;
+    open.push_back(streaming());
+    EXPECT_TRUE(hasText(beginning(open.back()), i < kMostPages ? " 200 " : " 503 ")) << i;
   }
   for (const int socket : open) ::close(socket);
 }
@@ -762,27 +777,22 @@ TEST_F(Serving, SoManyPagesAndNoMoreAreOpen) {
 // Pages that never read are dropped, and do not keep others from watching meanwhile.
 TEST_F(Serving, DeafPagesAreDropped) {
   std::vector<int> deaf;
-  for (int i = 0; i < kMostPages - 1; ++i) {
-    deaf.push_back(connection());
-    send(deaf.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
-  }
+  for (int i = 0; i < kMostPages - 1; ++i) deaf.push_back(streaming());
   EXPECT_EQ(watch(60), 60);
 
   // The place of the page that has watched may become free a little later.
   std::string answer;
   for (int i = 0; i < kMostPages && answer.find(" 503 ") == std::string::npos; ++i) {
-    deaf.push_back(connection());
-    send(deaf.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    char bytes[16] = {};
-    answer.assign(bytes, std::max<ssize_t>(::recv(deaf.back(), bytes, sizeof bytes, 0), 0));
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    deaf.push_back(streaming());
+    answer = beginning(deaf.back());
+    pause(200);
   }
   EXPECT_TRUE(hasText(answer, " 503 ")) << "there is always another place";
 
   int drawn = 0;
   const int tries = static_cast<int>(4 * kDeafSeconds);
   for (int i = 0; i < tries && drawn == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    pause(500);
     drawn = watch(1);
   }
   EXPECT_EQ(drawn, 1) << "no place has become free";

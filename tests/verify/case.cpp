@@ -1,7 +1,5 @@
 #include "verify/case.h"
 
-#include <algorithm>
-
 #include "core/text.h"
 #include "simd/kernels.h"
 

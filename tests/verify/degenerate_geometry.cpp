@@ -1,5 +1,4 @@
 // H23 to H29: triangles without area, of extreme sizes, and with coordinates that are not numbers.
-#include <array>
 #include <bit>
 #include "pi.h"
 #include "surfaces/intersect.h"

@@ -1,6 +1,4 @@
 // H59 to H61: laws that hold bit for bit and need no oracle.
-#include <array>
-#include <bit>
 #include <cstdint>
 
 #include "verify/bodies.h"

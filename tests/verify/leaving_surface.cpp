@@ -1,6 +1,5 @@
 // H1 to H4 and H9 to H11: rays that start on a surface.
 #include <algorithm>
-#include <array>
 
 #include "surfaces/intersect.h"
 #include "verify/bodies.h"

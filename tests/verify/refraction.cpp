@@ -1,13 +1,10 @@
 // H37 to H44: Fresnel's and Snell's laws in the kernels, against long double.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "textbook_fresnel.h"
 #include "verify/bodies.h"
-#include "verify/probe.h"
-#include "verify/scene_builder.h"
 
 namespace whit::verify {
 
