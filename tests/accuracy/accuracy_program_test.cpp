@@ -8,6 +8,7 @@
 #include "cli/run_command.h"
 #include "embedded_data.h"
 #include "sanitized.h"
+#include "source_files.h"
 
 namespace whit::accuracy {
 namespace {
@@ -92,9 +93,8 @@ TEST_F(AccuracyProgram, MeasuresAgainstAllTransport) {
 // DIR/sweep.csv.
 TEST_F(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
   sweep("mirrors --size 32x20 --knobs depth,cutoff,spp --time-budget 0 --reference-spp 64");
-  const std::string kept =
-      std::string(std::getenv("WHIT_SOURCE_DIR")) + "/tests/accuracy/mirrors.csv";
-  const auto before = parseCsv(cli::readFile(kept), kept);
+  const std::string kept = "tests/accuracy/mirrors.csv";
+  const auto before = parseCsv(sourceText(kept), kept);
   for (const std::string& line : grownErrors(before, rows_)) {
     ADD_FAILURE() << line;
   }

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "core/option_table.h"
@@ -186,7 +184,7 @@ Scene lattice(double share, const Rgb& radiance, const Rgb& behind = {}) {
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = behind;
 
-  d.cameras = {{.eye = {0, 0, 10}, .at = {0, 0, 0}, .orthographicHeight = 48}};
+  d.cameras = {{.eye = {0, 0, 10}, .orthographicHeight = 48}};
   return test::finalized(d);
 }
 
@@ -319,7 +317,7 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
             "0.0010\n"
             "  the same picture: whit render --spp 4 --depth 8 atrium\n");
 
-  receipt.high = std::numeric_limits<double>::infinity();
+  receipt.high = kInfinity;
   EXPECT_TRUE(
       hasText(receiptText(receipt, ""), "error 0.0200 FLIP, by what the samples tell; not known"));
 }

@@ -79,7 +79,7 @@ TEST(Knobs, OnlyWhatASceneHasIsSwept) {
     const char* knob;
     EffectSet without, with;
   };
-  const EffectSet matte = EffectSet().with(Effect::lights).with(Effect::shadows);
+  const EffectSet matte{Effect::lights, Effect::shadows};
   const EffectSet mirror = matte.with(Effect::mirror), glass = matte.with(Effect::transmission);
   const EffectSet glossy = matte.with(Effect::glossy);
   for (const Row& row :
@@ -117,8 +117,8 @@ TEST(Knobs, TheReferenceIsExactInEverything) {
 
 // Where rays branch, only a cutoff ends them.
 TEST(Knobs, ExactnessKeepsACutoffWhereRaysBranch) {
-  EXPECT_EQ(exactCutoff(EffectSet().with(Effect::mirror), true), 0.0f);
-  const EffectSet glass = EffectSet().with(Effect::transmission);
+  EXPECT_EQ(exactCutoff({Effect::mirror}, true), 0.0f);
+  const EffectSet glass{Effect::transmission};
   EXPECT_GT(exactCutoff(glass, true), 0.0f);
   EXPECT_GT(exactCutoff(glass, false), exactCutoff(glass, true));
   EXPECT_LT(exactCutoff(glass, false), RenderOptions().cutoff);

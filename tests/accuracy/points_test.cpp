@@ -11,8 +11,7 @@
 namespace whit::accuracy {
 namespace {
 
-const EffectSet kMirrored =
-    EffectSet().with(Effect::lights).with(Effect::shadows).with(Effect::mirror);
+const EffectSet kMirrored{Effect::lights, Effect::shadows, Effect::mirror};
 
 // The options with these values.
 RenderOptions with(const std::map<std::string, std::string>& values) {

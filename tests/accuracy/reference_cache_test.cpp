@@ -115,7 +115,7 @@ TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   options.quality = Quality::good;  // only a name
   EXPECT_EQ(digestOf(options), before);
 
-  options.disable = EffectSet().with(Effect::mirror);
+  options.disable = {Effect::mirror};
   EXPECT_NE(digestOf(options), before);
 
   options = {};

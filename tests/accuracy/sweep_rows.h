@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -157,7 +156,7 @@ inline SceneSweep madeUpSweep() {
   Point& base = sweep.points[0];
   base.kind = PointKind::baseline;
   base.onFront = true;
-  base.total.psnrDb = std::numeric_limits<double>::infinity();
+  base.total.psnrDb = kInfinity;
   base.sameSamples.emplace();
   base.sameSamplesMapPng = "png";
 

@@ -45,12 +45,16 @@ inline constexpr double kTableError = 0.005;
 // Enough wrong pixels of a picture: the rest of them are not looked at more closely.
 inline constexpr int kEnoughWrong = 30;
 
+// Returns the number that the variable of the environment asks for, which is at least 1.
+inline int numberOf(const char* variable, int preset) {
+  const char* asked = std::getenv(variable);
+  return asked == nullptr ? preset : std::max(1, std::atoi(asked));
+}
+
 // $WHIT_ORACLE_SCENES, if set, is how many scenes there are of each kind. Else sanitizers, which
 // watch the code and not the numbers, have a few.
 inline int scenesOfAKind(int usual) {
-  const char* asked = std::getenv("WHIT_ORACLE_SCENES");
-  if (asked != nullptr) return std::max(1, std::atoi(asked));
-  return whit::kSanitized ? 2 : usual;
+  return numberOf("WHIT_ORACLE_SCENES", whit::kSanitized ? 2 : usual);
 }
 
 inline double differenceOf(const Color& a, const Color& b) { return largest(magnitudes(a - b)); }

@@ -42,11 +42,6 @@ constexpr double kRounding = 1e-4;
 // Variance of a scene's relative mean below which no scene gets a larger weight.
 constexpr double kLeastSpread = 1e-6;
 
-double numberOf(const char* variable, double preset) {
-  const char* asked = std::getenv(variable);
-  return asked == nullptr ? preset : std::max(1.0, std::atof(asked));
-}
-
 class Mixed : public Agreement {
  protected:
   Material sheet() {
@@ -220,7 +215,7 @@ class Mixed : public Agreement {
     options.roulette = oneOf({0.0, 0.0, 0.3});
     options.filter = chance(0.3) ? Filter::nearest : Filter::bilinear;
     options.schlickFresnel = chance(0.25);
-    options.spp = kSpp * static_cast<int>(numberOf("WHIT_ORACLE_SAMPLES", 1));
+    options.spp = kSpp * numberOf("WHIT_ORACLE_SAMPLES", 1);
     return options;
   }
 };
@@ -400,9 +395,8 @@ TEST_F(Mixed, LightIsLinear) {
 }
 
 TEST_F(Mixed, MeansOfAllEffectsTogether) {
-  const int scenes =
-      static_cast<int>(numberOf("WHIT_ORACLE_SCENES", whit::kSanitized ? 20 : kScenes));
-  const int drawn = kDrawn * static_cast<int>(numberOf("WHIT_ORACLE_SAMPLES", 1));
+  const int scenes = numberOf("WHIT_ORACLE_SCENES", whit::kSanitized ? 20 : kScenes);
+  const int drawn = kDrawn * numberOf("WHIT_ORACLE_SAMPLES", 1);
   Comparison packets("packets"), reference("reference");
   for (int i = 0; i < scenes; ++i) {
     const std::string file = writeNew(5000 + i, [&] { mixedScene(); });

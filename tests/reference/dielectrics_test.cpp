@@ -47,8 +47,8 @@ TEST(Hidden, SurfacesAreNotThere) {
   SceneBuilder builder;
   Material inner = glassMaterial(1.33f);
   inner.emission = inner.mirror = inner.mirrorGrazing = Rgb(1.0f);
-  addSlab(builder, 1, -1, builder.add(glassMaterial(1, 1)));
-  addSlab(builder, 0.5f, -0.5f, builder.add(inner));
+  addSlab(builder, 1, -1, glassMaterial(1, 1));
+  addSlab(builder, 0.5f, -0.5f, inner);
   builder.sky(0.25f);
 
   RayCounts counts;
@@ -60,7 +60,7 @@ TEST(Hidden, SurfacesAreNotThere) {
 
 TEST(Transmission, DisabledMeansOpaque) {
   SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  addSlab(builder, 0, -1, glassMaterial(1.5f));
   builder.sky(1);
   const Scene scene = builder.build();
 

@@ -125,9 +125,7 @@ TEST(Surfel, ShadingNormalMayLookAway) {
 // The texel centers at u = 1/4 and 3/4 have a green of 1 and 1/5, with 3/5 halfway between them.
 TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   SceneBuilder builder;
-  Material m = diffuseMaterial(0.5f);
-  m.specular = Rgb(0.5f);
-  m.roughness = 0.75f;
+  Material m = glossyMaterial(0.5f, 0.5f, 0.75f);
   m.roughnessMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
 

@@ -19,7 +19,7 @@ TEST(Lights, FallOffOverAFloor) {
   const Scene scene = litFloor(diffuseMaterial(0.5f), {lightAt({0.5f, 2, -0.25f}, 30)});
 
   // The camera looks down with -z up. Its picture shows 7 units of the floor along z.
-  const Camera camera{.eye = {0, 5, 0}, .at = {0, 0, 0}, .up = {0, 0, -1}, .orthographicHeight = 7};
+  const Camera camera{.eye = {0, 5, 0}, .up = {0, 0, -1}, .orthographicHeight = 7};
 
   Image image(9, 7);
   const RayCounts counts = render(scene, BruteForce(scene), camera, uncut(), image);
@@ -63,14 +63,6 @@ Scene expectDark(const std::vector<Light>& lights) {
 TEST(Lights, BehindTheSurfaceGiveNothing) {
   const Scene scene = expectDark({lightAt({0, -2, 0}, 1)});
   EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
-}
-
-Light spotOf(float inner, float outer) {
-  Light light = lightAt({0, 2, 0}, 8);
-  light.kind = Light::Kind::spot;
-  light.innerConeAngle = inner;
-  light.outerConeAngle = outer;
-  return light;
 }
 
 double degrees(double x) { return x * kPi / 180; }

@@ -54,7 +54,7 @@ TEST(Fog, LiesOnBothWaysOfAMirroredPath) {
 // Glass of the air's refractive index bends and reflects nothing.
 TEST(Fog, IsNotInsideOfGlass) {
   SceneBuilder builder = foggyFloor(emittingMaterial(3));
-  addSlab(builder, 3, 2, builder.add(glassMaterial(1)), 10);
+  addSlab(builder, 3, 2, glassMaterial(1), 10);
   EXPECT_NEAR(radianceBelow(builder.build(), {0, 5, 0}).x, behind(2, behind(2, 3)), kOffsets);
 }
 

@@ -246,8 +246,7 @@ TEST(FrostedGlass, StaysBelowTheSurfaceThatNormalsAreBentOf) {
 }
 
 Material frostedGlass(float roughness, bool isThin) {
-  Material m = blackMaterial();
-  m.transmission = Rgb(1.0f);
+  Material m = glassMaterial(1.5f);
   m.castsShadow = m.glossyReflection = false;
   m.frosted = true;
   m.thin = isThin;

@@ -14,11 +14,8 @@ using namespace test;
 
 TEST(Furnace, SplitsAsTheSeriesSays) {
   SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
-
-  Sky& sky = builder.description.sky;
-  sky.kind = Sky::Kind::gradient;  // white above, black below
-  sky.zenith = Rgb(1.0f);
+  addSlab(builder, 0, -1, glassMaterial(1.5f));
+  whiteAbove(builder);
   EXPECT_NEAR(radianceBelow(builder.build(), {0, 2, 0}, uncut(40)).x, 2 * 0.04 / 1.04, 1e-12);
 }
 
@@ -57,7 +54,7 @@ Material coatedGlass(float mirror, const Rgb& transmission) {
 // Returns the radiance of a slab at normal incidence, up to the `inside`-th reflection within.
 RgbD seenOfSlab(const Material& material, int inside) {
   SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(material));
+  addSlab(builder, 0, -1, material);
   builder.sky(1);
   return radianceBelow(builder.build(), {0, 2, 0}, uncut(inside + 1));
 }
@@ -114,7 +111,7 @@ TEST(Absorption, DependsOnThePathInside) {
   SceneBuilder builder;
   Material tinted = glassMaterial(1);
   tinted.absorption = {1, 0.5f, 0};
-  addSlab(builder, 0, -1, builder.add(tinted), 4);
+  addSlab(builder, 0, -1, tinted, 4);
   builder.sky(1);
   const Scene scene = builder.build();
 
@@ -141,7 +138,7 @@ TEST(Absorption, ShortensPathsThroughTheCutoff) {
   SceneBuilder builder;
   Material dark = glassMaterial(1);
   dark.absorption = Rgb(10.0f);
-  addSlab(builder, 0, -1, builder.add(dark));
+  addSlab(builder, 0, -1, dark);
   builder.sky(1);
 
   Settings settings = uncut();

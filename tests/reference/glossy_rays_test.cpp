@@ -158,15 +158,8 @@ TEST(GlossyRays, StayAboveTheSurfaceThatNormalsAreBentOf) {
   }
 }
 
-Material rough(float f0, float roughness) {
-  Material m = blackMaterial();
-  m.specular = Rgb(f0);
-  m.roughness = roughness;
-  return m;
-}
-
 TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNoRayIsReflected) {
-  const Scene scene = floorUnderSky(rough(0.5f, 0.5f), 2);
+  const Scene scene = floorUnderSky(glossyMaterial(0, 0.5f, 0.5f), 2);
   RayCounts counts;
   EXPECT_GT(radianceBelow(scene, {0, 1, 0}, sampled(0), &counts).x, 0.5) << "the blurred sky";
   for (const Settings& settings :
@@ -179,7 +172,7 @@ TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNoRayIsReflected) {
 // Between two rough plates: N rays leave the first surface, one ray each of those that follow.
 TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   SceneBuilder builder;
-  const std::uint32_t metal = builder.add(rough(1, 0.3f));
+  const std::uint32_t metal = builder.add(glossyMaterial(0, 1, 0.3f));
   builder.add(floorAt(0, 1000, metal));
   builder.add(ceilingAt(2, 1000, metal));
   const Scene scene = builder.build();
@@ -195,7 +188,7 @@ TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
 
 // A material with a mirror keeps its single impulse, and a lobe next to it if it says so.
 TEST(GlossyScenes, AMaterialMayKeepItsLobeForLights) {
-  Material m = rough(0.5f, 0.5f);
+  Material m = glossyMaterial(0, 0.5f, 0.5f);
   m.mirror = m.mirrorGrazing = Rgb(0.25f);
   m.glossyReflection = false;
   RayCounts counts;
@@ -208,7 +201,7 @@ TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
   Settings settings = sampled(64);
   settings.options.cutoff = 0.01f;  // between the weight of the lobe and that of one of its samples
   RayCounts counts;
-  radianceBelow(floorUnderSky(rough(0.04f, 0.3f)), {0, 1, 0}, settings, &counts);
+  radianceBelow(floorUnderSky(glossyMaterial(0, 0.04f, 0.3f)), {0, 1, 0}, settings, &counts);
   EXPECT_GT(counts[RayKind::reflection], 32u);
 }
 

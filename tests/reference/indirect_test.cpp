@@ -207,10 +207,9 @@ TEST(IndirectScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
 }
 
 // Makes a disc of triangles, with an error of 4e-4 in its area.
-Mesh disc(double y, double radius, std::uint32_t material) {
+Mesh disc(double y, double radius) {
   Mesh mesh = meshOf("disc", joined("'segments': 128, 'radius': ", radius));
   transform(mesh, Affine::translation({0, y, 0}));
-  mesh.materials = {material};
   return mesh;
 }
 
@@ -224,8 +223,8 @@ TEST(FormFactors, OfTwoFacingDiscs) {
   for (const auto& [r1, r2, distance] :
        {std::array{1.0, 1.0, 1.0}, std::array{0.5, 2.0, 1.0}, std::array{2.0, 0.5, 0.7}}) {
     SceneBuilder builder;
-    builder.add(disc(0, r1, builder.add(diffuseMaterial(1))));
-    builder.add(disc(distance, r2, builder.add(emittingMaterial(1))));
+    builder.add(disc(0, r1), diffuseMaterial(1));
+    builder.add(disc(distance, r2), emittingMaterial(1));
     const Scene scene = builder.build();
 
     Looking looking(scene, indirect(64, 1));
@@ -283,9 +282,7 @@ TEST(FormFactors, OfPerpendicularPlates) {
 TEST(IndirectScenes, APlateBelowABallLensGetsWhatAnEyeThereSees) {
   SceneBuilder builder = withFloor(diffuseMaterial(1), 1e-3f);
   builder.add(exactSphere(0, Affine::translation(Vec3d(0, 1.4, 0))), glassMaterial(1.5f));
-  Sky& sky = builder.description.sky;
-  sky.kind = Sky::Kind::gradient;  // white above, black below
-  sky.zenith = Rgb(1.0f);
+  whiteAbove(builder);
   const Scene scene = builder.build();
 
   constexpr std::uint32_t kRays = 64;
@@ -306,7 +303,7 @@ TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
   Material kept = diffuseMaterial(0.5f);
   kept.diffuseReflection = false;
   builder.add(floorAt(1, 0.5f), kept);
-  builder.description.ambient = {Rgb(1), Rgb(1)};
+  lightEvenly(builder, 1);
   const Scene scene = builder.build();
 
   const auto seen = [&](int samples, double x) {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
@@ -66,7 +64,7 @@ TEST(Crossing, OfSurfacesThatBoundNoMedium) {
 
 TEST(Absorption, FollowsBeer) {
   Scene scene = sceneWithPriorities({0});
-  scene.media[1].absorption = {0.5f, 0, std::numeric_limits<float>::infinity()};
+  scene.media[1].absorption = {0.5f, 0, static_cast<float>(kInfinity)};
   EXPECT_EQ(transmittance(scene, 1, 2), RgbD(std::exp(-1.0), 1, 0));
   EXPECT_EQ(transmittance(scene, 1, 0), RgbD(1.0))
       << "no distance, no absorption, even if infinite";

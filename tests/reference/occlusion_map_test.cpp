@@ -13,7 +13,7 @@ constexpr double kShare = 0.2;  // 51 / 255
 
 // Returns the square [0, 1]^2 of the floor y = 0, whose map has 1 on the left and 0.2 on the right
 // along x.
-Scene mappedFloor(Material m, void (*lit)(SceneDescription&)) {
+Scene mappedFloor(Material m, void (*lit)(SceneBuilder&)) {
   SceneBuilder builder;
   m.occlusionMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1,
@@ -22,7 +22,7 @@ Scene mappedFloor(Material m, void (*lit)(SceneDescription&)) {
   mesh.secondUvs = {{1, 0}, {0, 0}, {0, 1}, {1, 1}};  // u runs along -x
   builder.add(mesh);
 
-  lit(builder.description);
+  lit(builder);
   return builder.build();
 }
 
@@ -30,19 +30,9 @@ double pictureAt(const Scene& scene, double x, const Settings& settings = uncut(
   return radianceBelow(scene, {x, 1, -0.5}, settings).x;
 }
 
-void lightSky(SceneDescription& d) {
-  d.sky.kind = Sky::Kind::color;
-  d.sky.zenith = Rgb(2.0f);
-}
+void lightSky(SceneBuilder& builder) { builder.sky(2); }
 
-void lightEverywhere(SceneDescription& d) { d.ambient = {Rgb(1.0f), Rgb(1.0f)}; }
-
-Material glossy() {
-  Material m = blackMaterial();
-  m.specular = Rgb(0.5f);
-  m.roughness = 0.6f;
-  return m;
-}
+void lightEverywhere(SceneBuilder& builder) { lightEvenly(builder, 1); }
 
 TEST(OcclusionMaps, DimAmbientLight) {
   const Scene scene = mappedFloor(diffuseMaterial(0.5f), lightEverywhere);
@@ -54,7 +44,7 @@ TEST(OcclusionMaps, DimAmbientLight) {
 // Under an even sky each ray of a lobe that does not end in the floor brings the same light.
 // Without rays the glossy lobe reflects the blurred sky.
 TEST(OcclusionMaps, DimTheBlurredSkyAndTheSamplesOfLobes) {
-  const Scene rough = mappedFloor(glossy(), lightSky);
+  const Scene rough = mappedFloor(glossyMaterial(0, 0.5f, 0.6f), lightSky);
   for (const Settings& settings : {sampled(0), sampled(16)}) {
     const double open = pictureAt(rough, 0.25, settings);
     EXPECT_GT(open, 0.5);
@@ -75,9 +65,9 @@ TEST(OcclusionMaps, LeaveLightsEmissionAndMirrorsAlone) {
   m.mirror = m.mirrorGrazing = Rgb(0.25f);
   m.emission = Rgb(3.0f);
 
-  const Scene scene = mappedFloor(m, [](SceneDescription& d) {
-    d.lights = {sun({0, -1, 0}, 2)};
-    lightSky(d);
+  const Scene scene = mappedFloor(m, [](SceneBuilder& builder) {
+    builder.description.lights = {sun({0, -1, 0}, 2)};
+    lightSky(builder);
   });
   const double open = pictureAt(scene, 0.25);
   EXPECT_NEAR(pictureAt(scene, 0.75), open, kRounding * open);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
@@ -71,15 +70,14 @@ TEST(MipLevel, GrowsByOneAsTheSidesDouble) {
 }
 
 TEST(MipLevel, H70_ofSenselessFootprintsIsALevel) {
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(mipLevel(std::nan("")), 0);
-  EXPECT_EQ(mipLevel(-infinity), 0);
-  EXPECT_EQ(mipLevel(infinity), kMipLevels - 1);
+  EXPECT_EQ(mipLevel(-kInfinity), 0);
+  EXPECT_EQ(mipLevel(kInfinity), kMipLevels - 1);
 
   const Scene scene = floorOf(noise());
   for (const auto& [width, level] : {std::pair{0.0, 0},
                                      {-1e300, kMipLevels - 1},
-                                     {infinity, kMipLevels - 1},
+                                     {kInfinity, kMipLevels - 1},
                                      {std::nan(""), 0}}) {
     expectNear(seen(scene, rayFrom(5, {width, 0})), floorColor(scene, level));
   }
@@ -107,8 +105,6 @@ TEST(Trilinear, MixesDataBetweenLevels) {
 
 TEST(RayCone, OfAPixelIsAsWideAsThePixel) {
   Camera camera;
-  camera.eye = {0, 0, 5};
-  camera.at = {0, 0, 0};
   camera.fov = 90;
 
   const Ray ray = generateRay(makeCameraFrame(camera, 300, 200), 17, 33);
@@ -162,7 +158,7 @@ TEST(RayCone, GoesOnBehindAMirror) {
 TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
   SceneBuilder builder;
   builder.add(glowingFloor(builder, noise()));
-  addSlab(builder, 90, 30, builder.add(glassMaterial(1.5f)), kTexels / 2.0f);
+  addSlab(builder, 90, 30, glassMaterial(1.5f), kTexels / 2.0f);
   const Scene scene = builder.build();
 
   // Each of two surfaces reflects 4 %. Light that is reflected between them would need more depth.

@@ -20,8 +20,7 @@ Scene pile(int sheets, float mirrored) {
   sheet.coverage = mirrored;
   SceneBuilder builder = withFloor(sheet, 10);
   for (int i = 1; i < sheets; ++i) builder.add(floorAt(static_cast<float>(i), 10, 0));
-  builder.description.sky.kind = Sky::Kind::gradient;
-  builder.description.sky.zenith = Rgb(1.0f);
+  whiteAbove(builder);
   return builder.build();
 }
 
@@ -55,10 +54,7 @@ double lookUp(const Scene& scene, int depth, int maxRays, RayCounts& counts,
               std::size_t sample = 0) {
   reference::Settings settings = uncut(depth);
   settings.options.maxRays = maxRays;
-  Camera camera;
-  camera.eye = {0, -3, 0};
-  camera.at = {};
-  camera.up = {0, 0, 1};
+  const Camera camera{.eye = {0, -3, 0}, .up = {0, 0, 1}};
 
   const BruteForce bruteForce(scene);
   counts = {};

@@ -1,18 +1,19 @@
 // Whole images: crops, threads, determinism.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "reference/small_scenes.h"
+#include "verify/scaled_scene.h"
 
 namespace whit::reference {
 namespace {
 
 using namespace test;
 
-// Returns a scene with opaque, mirroring and refracting surfaces, a light, a sky and ambient light.
-Scene stillLife() {
+// Returns a scene with opaque, mirroring and refracting surfaces, a light, a sky and ambient light,
+// at a scale of 2^power.
+Scene stillLife(int power = 0) {
   SceneBuilder builder = withFloor(diffuseMaterial(0.6f), 6);
   Material coated = diffuseMaterial(0.2f);
   coated.mirror = Rgb(0.3f);
@@ -26,7 +27,7 @@ Scene stillLife() {
 
   builder.description.lights = {lightAt({2, 4, 3}, 20)};
   builder.lookFrom({0, 2, 5});
-  return builder.build();
+  return repaired(scaled(builder.describe(), power));
 }
 
 // Counts the reports, which come from one thread.
@@ -110,24 +111,9 @@ TEST(Render, PowerOfTwoScaleChangesNothing) {
   render(scene, BruteForce(scene), scene.cameras[0], Settings{}, original);
 
   for (const int power : {-10, 10}) {
-    const float scale = std::ldexp(1.0f, power);
-    Scene scaled = scene;
-    for (TriangleRecord& t : scaled.triangles) {
-      for (float& p : t.position) p *= scale;
-    }
-
-    for (Light& light : scaled.lights) {
-      light.position *= scale;
-      light.intensity *= scale * scale;
-      light.radius *= scale;
-    }
-
-    Camera camera = scene.cameras[0];
-    camera.eye *= scale;
-    camera.at *= scale;
-
+    const Scene other = stillLife(power);
     Image image(20, 12);
-    render(scaled, BruteForce(scaled), camera, Settings{}, image);
+    render(other, BruteForce(other), other.cameras[0], Settings{}, image);
     EXPECT_EQ(image.pixels, original.pixels) << power;
   }
 }

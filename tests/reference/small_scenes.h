@@ -24,6 +24,34 @@ inline Light sun(const Vec3f& direction, float irradiance) {
   return light;
 }
 
+// Returns a light 2 above the origin that shines down between these angles to the vertical.
+inline Light spotOf(float inner, float outer) {
+  Light light = lightAt({0, 2, 0}, 8);
+  light.kind = Light::Kind::spot;
+  light.innerConeAngle = inner;
+  light.outerConeAngle = outer;
+  return light;
+}
+
+// Returns a material that has a diffuse color below a lobe of this reflectance.
+inline Material glossyMaterial(float albedo, float f0, float roughness) {
+  Material m = diffuseMaterial(albedo);
+  m.specular = Rgb(f0);
+  m.roughness = roughness;
+  return m;
+}
+
+// Gives the scene a sky that has radiance 1 above and is black below.
+inline void whiteAbove(SceneBuilder& builder) {
+  builder.description.sky.kind = Sky::Kind::gradient;
+  builder.description.sky.zenith = Rgb(1.0f);
+}
+
+// Gives the scene ambient light that is the same from all sides.
+inline void lightEvenly(SceneBuilder& builder, float radiance) {
+  builder.description.ambient = {Rgb(radiance), Rgb(radiance)};
+}
+
 // Returns settings of depth 8 without a cutoff, so that all contributions count.
 inline reference::Settings uncut(int depth = 8) {
   reference::Settings settings;

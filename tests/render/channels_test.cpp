@@ -9,12 +9,10 @@
 #include "bake/edit_scene.h"
 #include "core/error.h"
 #include "core/option_table.h"
-#include "has_text.h"
-#include "pi.h"
+#include "io/scene_files.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "sampling/sample_pattern.h"
-#include "temporary_folder.h"
 
 namespace whit::test {
 namespace {
@@ -473,16 +471,17 @@ TEST_P(Channels, OfASphereAreItsOwn) {
 TEST_P(Channels, NumbersTellThingsApart) {
   const TemporaryFolder folder;
   const std::string path = folder / "boxes.json";
-  std::ofstream(path) << R"({"whit": 1,
-    "cameras": {"main": {"eye": [0, 0, 9], "at": [0, 0, 0], "orthographicHeight": 6.7}},
-    "materials": {"a": {"diffuse": 0.2}, "b": {"diffuse": 0.4}, "c": {"diffuse": 0.6}},
-    "objects": {"pair": [{"shape": "box", "size": [1, 1, 1], "material": "b"}]},
-    "scene": [{"shape": "box", "size": [1, 1, 1], "material": "a",
-               "transform": {"translate": [-2, 0, 0]}},
-              {"use": "pair"},
-              {"use": "pair", "transform": {"translate": [2, 0, 0.5]}},
-              {"shape": "quad", "width": 0.5, "depth": 0.5, "material": "c",
-               "transform": {"rotate": [1, 0, 0, 90], "translate": [0, 1, 0]}}]})";
+  std::ofstream(path) << asJson(
+      "{'whit': 1,"
+      " 'cameras': {'main': {'eye': [0, 0, 9], 'at': [0, 0, 0], 'orthographicHeight': 6.7}},"
+      " 'materials': {'a': {'diffuse': 0.2}, 'b': {'diffuse': 0.4}, 'c': {'diffuse': 0.6}},"
+      " 'objects': {'pair': [{'shape': 'box', 'size': [1, 1, 1], 'material': 'b'}]},"
+      " 'scene': [{'shape': 'box', 'size': [1, 1, 1], 'material': 'a',"
+      "            'transform': {'translate': [-2, 0, 0]}},"
+      "           {'use': 'pair'},"
+      "           {'use': 'pair', 'transform': {'translate': [2, 0, 0.5]}},"
+      "           {'shape': 'quad', 'width': 0.5, 'depth': 0.5, 'material': 'c',"
+      "            'transform': {'rotate': [1, 0, 0, 90], 'translate': [0, 1, 0]}}]}");
   const Scene scene = repaired(described(path));
   const Film film = render(scene, options());
 

@@ -25,10 +25,10 @@ TEST(Coverage, ClearTexelsAreNoBounce) {
   Material sheet = emittingMaterial(1);
   sheet.coverageMap = builder.add(dataMap(1, {0}));
   sheet.passClearTexels();
-  builder.add(floorAt(0, 9, builder.add(sheet)));
+  builder.add(floorAt(0, 9), sheet);
   builder.sky(0.5f);
   reference::RayCounts counts;
-  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, uncut(), &counts).x, 0.5);
+  EXPECT_EQ(radianceBelow(builder.build(), {0, 1, 0}, uncut(), &counts).x, 0.5);
   EXPECT_EQ(counts[RayKind::refraction], 0u);
 }
 

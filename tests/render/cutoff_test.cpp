@@ -57,10 +57,8 @@ TEST(Cutoff, WhiteRoomsKeepTheirLightWithOneRayABounce) {
   constexpr int kSamples = 4;
   for (const float specular : {0.04f, 0.5f, 1.0f}) {
     for (const float roughness : {0.02f, 0.3f, 1.0f}) {
-      Material wall = diffuseMaterial(1);
+      Material wall = glossyMaterial(1, specular, roughness);
       wall.emission = Rgb(1.0f / (kDepth + 1));
-      wall.specular = Rgb(specular);
-      wall.roughness = roughness;
       RenderOptions o = deepOptions();
       o.glossy = o.indirect = kSamples;
 
@@ -90,7 +88,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   m.transmission = Rgb(0.5f, 0, 0);
   m.ior = 2.5f;
   builder.add(box({-1, -1, -1}, {1, 1, 1}), m);
-  builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+  lightEvenly(builder, 1);
   builder.lookFrom({0.5f, 0.7f, 3});
 
   RenderOptions o = smallOptions({16, 12});
@@ -104,9 +102,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
 // every one of them: up to 2^16 a pixel at this depth, and 2^64 at the default one.
 TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   SceneBuilder builder;
-  Material coated = diffuseMaterial(0);
-  coated.transmission = Rgb(1.0f);
-  coated.ior = 1;
+  Material coated = glassMaterial(1);
   coated.mirror = coated.mirrorGrazing = Rgb(0.9f);
 
   const auto material = builder.add(coated);

@@ -238,9 +238,7 @@ double ggx(double alpha, double cosine) {
 TEST(Distance, RoughnessKeepsTheHighlight) {
   SceneBuilder builder;
   builder.description.lights = {kSlantedSun};
-  Material m = blackMaterial();
-  m.specular = Rgb(1.0f);
-  m.roughness = 0.8f;
+  Material m = glossyMaterial(0, 1, 0.8f);
   m.roughnessMap = add(builder, roughness, TexelFormat::data);
 
   expectTheSameFromAfar("roughness", builder, m, 0.13, [&](double x, double y) {

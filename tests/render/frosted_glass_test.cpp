@@ -20,7 +20,7 @@ Material glassOf(float roughness) {
 Scene frostedThings() {
   SceneBuilder builder;
   builder.sky(1);
-  builder.add(floorAt(0, 6, builder.add(diffuseMaterial(0.6f))));
+  builder.add(floorAt(0, 6), diffuseMaterial(0.6f));
   const std::int32_t map = builder.add(dataMap(2, {1, 0.01f, 0.5f, 0.8f}, true));
 
   for (int i = 0; i < 6; ++i) {
@@ -42,10 +42,10 @@ Scene frostedThings() {
     }
     if (i == 4) m.roughnessMap = map;
     const float x = static_cast<float>(i) - 2.5f;
-    builder.add(box({x - 0.4f, 0.1f, -0.4f}, {x + 0.4f, 0.9f, 0.4f}, builder.add(m)));
+    builder.add(box({x - 0.4f, 0.1f, -0.4f}, {x + 0.4f, 0.9f, 0.4f}), m);
     if (i == 5) {
       m.ior = 1.1f;
-      builder.add(box({x - 0.2f, 0.3f, -0.2f}, {x + 0.2f, 0.6f, 0.6f}, builder.add(m)));
+      builder.add(box({x - 0.2f, 0.3f, -0.2f}, {x + 0.2f, 0.6f, 0.6f}), m);
     }
   }
 
@@ -59,8 +59,9 @@ Scene frostedThings() {
     }
     if (i == 2) m.coverage = 0.6f;
     const float x = static_cast<float>(i) - 2.5f, z = i == 3 ? 0.4f : 1.5f;
-    builder.add(quad({x - 0.3f, 0.2f, z}, {x + 0.3f, 0.2f, z}, {x + 0.3f, 0.8f, z},
-                     {x - 0.3f, 0.8f, z}, builder.add(m)));
+    builder.add(
+        quad({x - 0.3f, 0.2f, z}, {x + 0.3f, 0.2f, z}, {x + 0.3f, 0.8f, z}, {x - 0.3f, 0.8f, z}),
+        m);
   }
 
   builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};

@@ -53,9 +53,7 @@ TEST(MirrorMaps, MultiplyTheReflectedRayAtNormalIncidence) {
   expectColor(reflectedAt(scene, 0.75, 70), {at70(0.125), at70(0), at70(0.5)});
 
   // The map is not looked up without textures.
-  reference::Settings settings = uncut();
-  settings.effects = settings.effects.without(Effect::textures);
-  expectColor(radianceAlong(scene, {0.75, 1, -0.5}, {0, -1, 0}, settings), RgbD(1.0));
+  expectColor(radianceBelow(scene, {0.75, 1, -0.5}, without(Effect::textures)), RgbD(1.0));
 }
 
 // A metal reflects with the colors of its vertices; another material does not.
@@ -94,7 +92,7 @@ TEST(TransmissionMaps, LeaveTheRestToTheDiffuseColor) {
   m.transmission = Rgb(1.0f);
   m.thin = true;
   m.transmissionMap = addHalves(builder);
-  builder.description.ambient = {Rgb(0.5f), Rgb(0.5f)};
+  lightEvenly(builder, 0.5f);
   const Scene scene = squareOf(builder, m);
   // Of the ambient light, and of the sky below, which is 2 as well.
   expectColor(reflectedAt(scene, 0.75), RgbD{0.75, 1, 0} * 0.5 + RgbD{0.25, 0, 1} * 2.0);

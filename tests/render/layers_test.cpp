@@ -61,8 +61,7 @@ Camera viewAt(double cosine) {
 
 // A wide floor.
 SceneBuilder floorOf(const Material& material, double cosine) {
-  SceneBuilder builder;
-  builder.add(floorAt(0, 100, builder.add(material)));
+  SceneBuilder builder = withFloor(material, 100);
   builder.description.cameras = {viewAt(cosine)};
   return builder;
 }
@@ -71,7 +70,7 @@ SceneBuilder floorOf(const Material& material, double cosine) {
 Scene underEvenSky(const Material& material, float ambient = 0) {
   SceneBuilder builder = floorOf(material, 1);
   builder.sky(1);
-  builder.description.ambient = {Rgb(ambient), Rgb(ambient)};
+  lightEvenly(builder, ambient);
   return builder.build();
 }
 
@@ -79,13 +78,6 @@ Scene underEvenSky(const Material& material, float ambient = 0) {
 const Scene& seenAt(Scene& floor, double cosine) {
   floor.cameras = {viewAt(cosine)};
   return floor;
-}
-
-Material plastic(float diffuse, float f0, float roughness) {
-  Material m = diffuseMaterial(diffuse);
-  m.specular = Rgb(f0);
-  m.roughness = roughness;
-  return m;
 }
 
 GltfMaterial dielectric(float base, float roughness, float clearcoat = 0) {
@@ -164,9 +156,9 @@ TEST(Layers, ASheetOnGlassGetsWhatTheGlassDoesNotReflect) {
     paint.coverage = coverage;
     for (const double cosine : kCosines) {
       SceneBuilder builder = floorOf(paint, cosine);
-      builder.add(floorAt(0, 100, builder.add(glassMaterial(1.5f))));
+      builder.add(floorAt(0, 100), glassMaterial(1.5f));
       builder.sky(1);
-      builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+      lightEvenly(builder, 1);
       expectMeans(builder.build(), 1, 1e-6);
     }
   }
@@ -227,7 +219,7 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
   int count = 0;
   for (const float roughness : {0.05f, 0.2f, 0.3f, 0.5f, 0.7f, 1.0f}) {
     for (const float f0 : {0.02f, 0.04f, 0.5f, 1.0f}) {
-      Scene floor = underEvenSky(plastic(0, f0, roughness));
+      Scene floor = underEvenSky(glossyMaterial(0, f0, roughness));
       for (const double cosine : {0.1, 0.3, 0.6, 1.0}) {
         const double albedo = albedoByFacets(f0, std::min(1.0, 25.0 * f0), roughness, cosine);
         for (const double seen : meansOf(seenAt(floor, cosine))) {
@@ -243,16 +235,14 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
   EXPECT_LT(std::sqrt(squares / count), 0.001);
 
   // A number, in case that the integral and the table are wrong alike.
-  Scene floor = underEvenSky(plastic(0, 0.04f, 0.3f));
+  Scene floor = underEvenSky(glossyMaterial(0, 0.04f, 0.3f));
   expectMeans(seenAt(floor, 0.3), 0.168, 0.001);
 }
 
 // Behind the first surface, here a clear sheet, --indirect follows one of lobe and diffuse color,
 // and the mean over many pixels is that of both.
 TEST(Layers, TheChoiceOfALobeKeepsTheMean) {
-  Material clear = diffuseMaterial(0);
-  clear.transmission = Rgb(1.0f);
-  clear.ior = 1;
+  Material clear = glassMaterial(1);
   clear.thin = true;
   clear.castsShadow = false;
 
@@ -262,11 +252,11 @@ TEST(Layers, TheChoiceOfALobeKeepsTheMean) {
 
   for (const float f0 : {0.04f, 0.3f}) {
     for (const double cosine : {0.6, 0.2}) {
-      Material red = plastic(0, f0, 0.4f);
+      Material red = glossyMaterial(0, f0, 0.4f);
       red.diffuse = {0.8f, 0.3f, 0.0f};
 
       SceneBuilder builder = floorOf(red, cosine);
-      builder.add(ceilingAt(1, 100, builder.add(clear)));
+      builder.add(ceilingAt(1, 100), clear);
       builder.sky(1);
       const Scene scene = builder.build();
 
@@ -291,7 +281,7 @@ TEST(Layers, TheChoiceOfALobeKeepsTheMean) {
 TEST(Layers, ALampLightsWhatTheLobeLeaves) {
   for (const double cosine : {1.0, 0.35}) {
     const auto lit = [&](float diffuse, float sky) {
-      SceneBuilder builder = floorOf(plastic(diffuse, 0.04f, 0.5f), cosine);
+      SceneBuilder builder = floorOf(glossyMaterial(diffuse, 0.04f, 0.5f), cosine);
       if (sky > 0) builder.sky(sky);
       builder.description.lights = {sun({0.2f, -1, -0.1f}, 2)};
       return meansOf(builder.build());
@@ -311,9 +301,9 @@ TEST(Layers, ALampLightsWhatTheLobeLeaves) {
 TEST(Layers, IndirectLightKeepsTheSkyOutOfClosedRooms) {
   for (const float roughness : {0.02f, 0.2f, 0.6f}) {
     SceneBuilder builder;
-    builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(plastic(0.5f, 0.04f, roughness))));
+    builder.add(box({-1, -1, -1}, {1, 1, 1}), glossyMaterial(0.5f, 0.04f, roughness));
     builder.sky(1);
-    builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+    lightEvenly(builder, 1);
     builder.lookFrom({0.1f, 0.2f, 0.7f}, {-0.3f, 0, -1});
 
     RenderOptions o = plain();
@@ -325,8 +315,8 @@ TEST(Layers, IndirectLightKeepsTheSkyOutOfClosedRooms) {
 
 // With --ambient-samples the reflected sky is occluded as ambient light is, also without any.
 TEST(Layers, OcclusionHidesTheReflectedSky) {
-  SceneBuilder builder = floorOf(plastic(0, 0.5f, 0.6f), 0.8);
-  builder.add(ceilingAt(0.5f, 100, builder.add(blackMaterial())));
+  SceneBuilder builder = floorOf(glossyMaterial(0, 0.5f, 0.6f), 0.8);
+  builder.add(ceilingAt(0.5f, 100), blackMaterial());
   builder.description.cameras[0].eye = {0, 0.4f, 0.3f};
   builder.sky(1);
   builder.description.ambient.occlusion = 100;
@@ -349,8 +339,8 @@ TEST(Layers, NeighborsInARowOfRoughnessesDifferSmoothly) {
     metal.roughness = 0.02f * static_cast<float>(i);
 
     SceneBuilder builder;
-    builder.add(exactSphere(builder.add(shadedAs(metal, {})), Affine::translation({0, 1, 0})));
-    builder.add(floorAt(0, 4, builder.add(diffuseMaterial(0.2f))));
+    builder.add(exactSphere(0, Affine::translation({0, 1, 0})), shadedAs(metal, {}));
+    builder.add(floorAt(0, 4), diffuseMaterial(0.2f));
 
     builder.sky(1);
     builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};

@@ -10,14 +10,6 @@
 namespace whit::test {
 namespace {
 
-Light spot(float inner, float outer) {
-  Light light = lightAt({0, 2, 0}, 10);
-  light.kind = Light::Kind::spot;
-  light.innerConeAngle = inner;
-  light.outerConeAngle = outer;
-  return light;
-}
-
 // The lights shine on a floor of albedo 0.5 that fills the picture.
 Scene floorUnder(const std::vector<Light>& lights) {
   SceneBuilder builder = withFloor(diffuseMaterial(0.5f), 8);
@@ -28,7 +20,7 @@ Scene floorUnder(const std::vector<Light>& lights) {
 
 // No shadow ray is traced from outside of a light's cone, nor where the surface faces away.
 TEST(LightKinds, TraceShadowRaysWhereTheyShine) {
-  for (const Light& light : {spot(15, 25), sun({3, -4, 0}, 3), sun({0, 1, 0}, 3)}) {
+  for (const Light& light : {spotOf(15, 25), sun({3, -4, 0}, 3), sun({0, 1, 0}, 3)}) {
     const Picture picture = render(floorUnder({light}), smallOptions());
     const double lit = static_cast<double>(
         std::ranges::count_if(picture.image.pixels, [](const Rgb& p) { return p.x > 0; }));

@@ -2,8 +2,6 @@
 // reference.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "reference/media.h"
 #include "reference/small_scenes.h"
 #include "render/kernel_surfels.h"

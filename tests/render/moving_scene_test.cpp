@@ -5,9 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-
 #include "inspect/reference_frame.h"
 #include "pi.h"
 #include "reference/small_scenes.h"

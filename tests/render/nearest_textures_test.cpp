@@ -42,7 +42,7 @@ TEST(NearestTextures, AreLookedUpAsWhereAllAre) {
   Scene scene = pixelArt(true);
   RenderOptions o = smallOptions();
   // --texture-filter does not apply to masks.
-  o.disable = EffectSet().with(Effect::alphaMasks);
+  o.disable = {Effect::alphaMasks};
   o.shading.textureFilter = TextureFilter::bilinear;
   const Image alone = render(scene, o).image;
 
@@ -60,9 +60,7 @@ TEST(NearestTextures, AreLookedUpAsWhereAllAre) {
 TEST(NearestTextures, CutTexelByTexel) {
   for (const float right : {0.0f, 0.45f}) {
     SceneBuilder builder;
-    Material m = blackMaterial();
-    m.emission = Rgb(1.0f);
-
+    Material m = emittingMaterial(1);
     Texture t = dataMap(2, {1, right});
     t.nearest = true;
     m.alphaMap = builder.add(t);
@@ -73,7 +71,7 @@ TEST(NearestTextures, CutTexelByTexel) {
 
     for (int i = 0; i < 100; ++i) {
       const double u = (i + 0.5) / 100;
-      const double seen = radianceAlong(scene, {u, 1, -0.5}, {0, -1, 0}).x;
+      const double seen = radianceBelow(scene, {u, 1, -0.5}).x;
       EXPECT_EQ(seen, u < 0.5 || right > 0.4f ? 1 : 0) << u;
     }
   }

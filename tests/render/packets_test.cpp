@@ -2,7 +2,6 @@
 // back to their rays is seen by pictures of all widths (hard cases H59b and H83b).
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>

@@ -79,11 +79,7 @@ TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
 }
 
 TEST(KernelsOfAPlan, AreThoseThatItsEffectsNeed) {
-  const Plan plan = planOf(EffectSet()
-                               .with(Effect::lights)
-                               .with(Effect::textures)
-                               .with(Effect::normalMaps)
-                               .with(Effect::mirror));
+  const Plan plan = planOf({Effect::lights, Effect::textures, Effect::normalMaps, Effect::mirror});
 
   std::vector<std::string> names;
   for (const KernelUse& use : kernelsOf(plan)) names.push_back(use.kernel);

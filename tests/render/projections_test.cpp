@@ -134,11 +134,8 @@ TEST(Projected, SizesThatTheViewsDoNotDivideShowTheSameViews) {
     expectStagesAgreeOnEveryTarget(scene, o);
     const Image more = render(scene, o).image;
 
-    for (int y = 0; y < even.height; ++y) {
-      for (int x = 0; x < even.width; ++x) {
-        EXPECT_EQ(more.at(x, y), views.at(x, y)) << x << "," << y;
-      }
-    }
+    forEachPixel(views,
+                 [&](int x, int y) { EXPECT_EQ(more.at(x, y), views.at(x, y)) << x << "," << y; });
   }
 }
 
@@ -148,7 +145,6 @@ TEST(Projected, DepthsAreTheClosedForm) {
   constexpr double kRadius = 4;
   Camera pose;
   pose.eye = {0, 0, 2};
-  pose.at = {0, 0, 0};
   for (const auto& [name, camera] : projectedCameras(pose)) {
     SCOPED_TRACE(name);
     SceneBuilder builder;

@@ -25,8 +25,7 @@ TEST(Radiosity, HalvesOfASphereLightEachOther) {
   builder.lookFrom({-0.3f, 0.2f, 0}, {1, 0, 0});
   const Scene scene = builder.build();
 
-  RenderOptions o = smallOptions();
-  o.size = ImageSize{96, 64};
+  RenderOptions o = smallOptions({96, 64});
   o.shading.textureFilter = TextureFilter::nearest;
   o.depth = 4;
   o.cutoff = 0;

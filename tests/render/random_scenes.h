@@ -1,11 +1,9 @@
 // Random scenes of the most difficult triangles, for tests of hits and shadows.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
-#include <vector>
 
 #include "bake/scene.h"
 #include "render/data_map.h"

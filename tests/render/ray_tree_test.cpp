@@ -129,7 +129,7 @@ Scene surfaceAndWall(const Material& surface, const Material& behind = emittingM
   SceneBuilder builder;
   builder.add(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), surface);
   builder.add(quad({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}), behind);
-  builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
+  builder.lookFrom({0.1f, 0.2f, 2}, {0.1f, 0.2f, 0});
   return builder.build();
 }
 

@@ -18,9 +18,7 @@ Scene roughTiles() {
   const std::int32_t slope = builder.add(wide);
 
   return rowOfTiles(builder, [&](int i) {
-    Material m = diffuseMaterial(0.3f);
-    m.specular = Rgb(0.6f);
-    m.roughness = i == 5 ? 1.0f : 0.7f;
+    Material m = glossyMaterial(0.3f, 0.6f, i == 5 ? 1.0f : 0.7f);
     m.glossyReflection = i % 2 == 0;
     if (i == 3) m.mirror = Rgb(0.2f);
     if (i != 2) m.roughnessMap = i < 2 ? checks : slope;

@@ -30,7 +30,7 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   }
 
   builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
-  builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
+  lightEvenly(builder, 0.25f);
   builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
   Camera& camera = builder.lookFrom({0, 5, 1}, {0, 0, 0.25f});
   camera.up = {0, 0, -1};

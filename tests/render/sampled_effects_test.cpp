@@ -36,7 +36,7 @@ const std::vector<Sampled>& everySampledEffect() {
       // A lobe that is not sampled shows the blurred sky.
       {"glossy", Effect::glossyReflection, &RenderOptions::glossy, RayKind::reflection,
        "addGlossyReflections", "glossy",
-       [](RenderOptions& o) { o.disable = EffectSet().with(Effect::blurredSky); }},
+       [](RenderOptions& o) { o.disable = {Effect::blurredSky}; }},
 
       {"indirect", Effect::indirect, &RenderOptions::indirect, RayKind::indirect, "addIndirect",
        "cornell", [](RenderOptions& o) { o.depth = std::min(o.depth, 5); }},

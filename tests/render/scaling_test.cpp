@@ -34,7 +34,7 @@ SceneDescription masked() {
 
   builder.add(floorAt(-0.01f, 1), diffuseMaterial(0.5f));
   builder.description.lights = {lightAt({0.3f, 0.5f, 0.4f}, 1)};
-  builder.description.cameras = {{.eye = {0.1f, 0.2f, 0.3f}, .at = {0.1f, 0.08f, 0}}};
+  builder.lookFrom({0.1f, 0.2f, 0.3f}, {0.1f, 0.08f, 0});
   return builder.describe();
 }
 

@@ -41,9 +41,7 @@ std::vector<Material> everyKind(SceneBuilder& builder) {
   Material bumpy = diffuseMaterial(0.7f);
   bumpy.normalMap = data;
 
-  Material shiny = diffuseMaterial(0.2f);
-  shiny.specular = Rgb(0.5f);
-  shiny.roughness = 0.6f;
+  Material shiny = glossyMaterial(0.2f, 0.5f, 0.6f);
   shiny.roughnessMap = data;
   shiny.glossyReflection = false;
   Material lamp = emittingMaterial(0.8f);
@@ -84,7 +82,7 @@ Scene ballsOfEveryKind(int segments = 0) {
   builder.add(floorAt(0, 6), diffuseMaterial(0.5f));
   builder.sky(0.4f);
   builder.description.lights = {lightAt({2, 5, 3}, 40)};
-  builder.description.cameras = {{.eye = {0, 2.5f, 5}, .at = {0, 0.8f, 0}}};
+  builder.lookFrom({0, 2.5f, 5}, {0, 0.8f, 0});
   return builder.build();
 }
 
@@ -161,7 +159,7 @@ class CoincidentSpheres : public testing::Test {
       if (piece.isInstance) places.push_back(elsewhere);
       builder.place({"ball", {exactSphere(piece.material, piece.map)}}, places);
     }
-    builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 40}};
+    builder.lookFrom({0, 0, 3}).fov = 40;
     return builder;
   }
 

@@ -3,8 +3,6 @@
 // (GltfCoordinates).
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "reference/small_scenes.h"
 #include "render/row_of_tiles.h"
 #include "rounding.h"
@@ -31,7 +29,7 @@ TEST(VertexColors, OfMetalMultiplyTheHighlight) {
     mesh.colors.assign(colored ? 4 : 0, {1, 0.5f, 0.25f});
     builder.add(std::move(mesh));
     builder.description.lights = {lightAt({0.75f, 2, -0.25f}, 1)};
-    return radianceAlong(builder.build(), {0.75, 1, -0.25}, {0, -1, 0});
+    return radianceBelow(builder.build(), {0.75, 1, -0.25});
   };
 
   const RgbD white = highlight(VertexTint::diffuse, false);
@@ -55,11 +53,9 @@ Scene everyMap() {
                    encodeDataTexel(0.5f, 0.5f, 1, 1), encodeDataTexel(0.3f, 0.7f, 0.9f, 1)}));
 
   return rowOfTiles(builder, [&](int i) {
-    Material m = diffuseMaterial(0.5f);
+    Material m = glossyMaterial(0.5f, i == 4 ? 0.0f : 0.4f, 0.4f);
     m.vertexTint = static_cast<VertexTint>(i % 3);
     if (i != 3) m.diffuseMap = color;
-    m.specular = Rgb(i == 4 ? 0.0f : 0.4f);
-    m.roughness = 0.4f;
 
     if (i != 2) m.emission = {0.5f, 0.25f, 1};
     if (i != 5) m.emissionMap = i < 3 ? bright : color;

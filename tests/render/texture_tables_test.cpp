@@ -100,7 +100,7 @@ std::uint32_t firstTexel(const ShadingTables& tables) {
 TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
   int colors = 0, masks = 0;
   const Scene scene = maskedFloor({lateTexture(colors), lateTexture(masks)});
-  buildTables(scene, EffectSet::all().without(Effect::textures), {});
+  buildTables(scene, allBut(Effect::textures), {});
   EXPECT_EQ(colors + masks, 0);
 
   const std::uint64_t before = scene.memoryBytes();

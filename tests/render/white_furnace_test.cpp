@@ -3,8 +3,6 @@
 // nothing absorbs.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "io/files.h"
 #include "io/memory_budget.h"
 #include "io/model.h"
@@ -75,7 +73,7 @@ class Members {
   Members(Numbers& numbers, Colors colors) : numbers_(numbers), colors_(colors) {}
 
   Members& add(const std::string& name, const std::string& value) {
-    text_ += (text_.empty() ? "\"" : ",\"") + name + "\":" + value;
+    addItem(text_, "\"" + name + "\":" + value);
     return *this;
   }
   Members& maybe(const char* name, const std::string& value) {
@@ -90,7 +88,7 @@ class Members {
     std::string list;
     for (int i = 0; i < count; ++i) {
       const bool isGray = colors_ == Colors::gray && i < 3;
-      list += (i == 0 ? "" : ",") + (isGray ? gray : std::to_string(numbers_.in(0, high)));
+      addItem(list, isGray ? gray : std::to_string(numbers_.in(0, high)));
     }
     return maybe(name, "[" + list + "]");
   }
@@ -189,7 +187,7 @@ class WrittenMaterials : public SceneFileTest {
   Scene ballsOfGltf(WriteMaterial write, Colors colors) {
     Numbers numbers(500);
     std::string materials;
-    for (int i = 0; i < kBalls; ++i) materials += (i == 0 ? "" : ",") + write(numbers, colors);
+    for (int i = 0; i < kBalls; ++i) addItem(materials, write(numbers, colors));
 
     const std::string file =
         save("m.gltf", "{\"asset\":{\"version\":\"2.0\"},\"materials\":[" + materials + "]}");
@@ -260,7 +258,7 @@ TEST(WhiteFurnace, LobesThatAreNotSampledTakeWhatTheyReflect) {
     EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets;
     EXPECT_GE(least, 0.9 - kRoundingsOfAPath) << packets;
 
-    o.disable = EffectSet().with(Effect::blurredSky);
+    o.disable = {Effect::blurredSky};
     EXPECT_LT(rangeOf(scene, o, packets).first, 0.9 * 0.75) << packets;
   }
 }
