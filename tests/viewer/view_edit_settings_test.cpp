@@ -210,15 +210,16 @@ TEST_F(EditedModel, WarnsAsTheReaderDoes) {
   Image sky(4, 2);
   sky.pixels[3] = {-1, 0, 0};
   writeExr(folder_ / "sky.exr", sky, {});
-  save("s.json", asJson("{'whit': 1, 'scene': [{'shape': 'sphere'}]}"));
+  save("s.json", "{'whit': 1, 'scene': [{'shape': 'sphere'}]}");
   const auto warning = warningOf(
       {R"(/sky={"image": "sky.exr", "scale": 2})", R"(/sky={"image": "sky.exr", "scale": 3})"});
   EXPECT_EQ(warning.second.count, 1u) << "each kind is noted once";
 }
 
 TEST_F(EditedModel, WarnsOfMaterialsThatSendOutMoreThanTheyGet) {
-  save("s.json", asJson("{'whit': 1, 'materials': {'m': {'diffuse': 0.5}}, 'scene': "
-                        "[{'shape': 'sphere', 'material': 'm'}]}"));
+  save("s.json",
+       "{'whit': 1, 'materials': {'m': {'diffuse': 0.5}}, 'scene': "
+       "[{'shape': 'sphere', 'material': 'm'}]}");
   const auto [words, warning] = warningOf({"/materials/m/mirror=0.9"});
   EXPECT_TRUE(words.starts_with("material whose parts exceed 1 in sum"));
   EXPECT_EQ(warning.first, folder_ / "s.json#/materials/m: mirror 0.9 + diffuse 0.5 = 1.4");
@@ -231,13 +232,15 @@ TEST_F(EditedModel, IsEditedInPlaceAsScenesAre) {
   EXPECT_EQ(materials[0].specularMap, kNoTexture);
   EXPECT_NE(materials[1].specularMap, kNoTexture);
 
-  save("items.json", asJson("{'whit': 1, 'scene': [{'shape': 'quad'}, {'shape': 'box'}]}"));
+  save("items.json", "{'whit': 1, 'scene': [{'shape': 'quad'}, {'shape': 'box'}]}");
   save("far.obj", "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n");
-  save("s.json", R"({"whit": 1, "lights": [
-    {"position": [1, 2, 3], "intensity": 5}, {"type": "directional", "direction": [0, -1, 1],
-    "irradiance": 2}, {"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
-    "intensity": 3}], "scene": [{"group": [{"model": "m.obj",
-    "materials": {"*": {"mirror": 0.2}, "it's=1": {"transmission": 0.5, "ior": 1.3}}}]}]})");
+  // save() would take a plain apostrophe for a quotation mark.
+  save("s.json",
+       "{'whit': 1, 'lights': [{'position': [1, 2, 3], 'intensity': 5}, "
+       "{'type': 'directional', 'direction': [0, -1, 1], 'irradiance': 2}, "
+       "{'type': 'spot', 'position': [0, 1, 0], 'direction': [0, -1, 0], 'intensity': 3}], "
+       "'scene': [{'group': [{'model': 'm.obj', 'materials': {'*': {'mirror': 0.2}, "
+       "'it\\u0027s=1': {'transmission': 0.5, 'ior': 1.3}}}]}]}");
   for (const char* file : {"items.json", "far.obj", "m.obj", "s.json"}) {
     SCOPED_TRACE(file);
     expectEditsInPlace(folder_ / file);
@@ -249,11 +252,10 @@ TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
   writePng(folder_ / "r.png", DisplayImage{2, 1, {0, 50, 0, 255, 0, 200, 0, 255}}, {});
   GltfBuilder b;
   const std::string uvs = ",'TEXCOORD_0':" + b.floats("VEC2", {0, 0, 1, 0, 0, 1});
-  save("m.gltf",
-       asJson(b.json(oneMesh(primitive(b.positions(kTriangleXyz), uvs, ",'material':0")) +
-                     ",'materials':[{'name':'m','pbrMetallicRoughness':{"
-                     "'metallicRoughnessTexture':{'index':0}}}],'textures':[{'source':0}],"
-                     "'images':[{'uri':'r.png'}]")));
+  save("m.gltf", b.json(oneMesh(primitive(b.positions(kTriangleXyz), uvs, ",'material':0")) +
+                        ",'materials':[{'name':'m','pbrMetallicRoughness':{"
+                        "'metallicRoughnessTexture':{'index':0}}}],'textures':[{'source':0}],"
+                        "'images':[{'uri':'r.png'}]"));
   Editing editing(folder_ / "m.gltf");
   const auto hasMap = [&] { return editing.now().materials[0].roughnessMap != kNoTexture; };
   EXPECT_TRUE(hasMap());
@@ -267,10 +269,11 @@ class EditedSky : public EditedModel {
  protected:
   EditedSky() {
     writeSky(folder_ / "sky.exr");
-    save("s.json", asJson("{'whit': 1, 'sky': {'image': 'sky.exr', 'scale': 0.5}, "
-                          "'ambient': {'fromSky': 0.5}, "
-                          "'materials': {'glossy': {'specular': 0.5, 'roughness': 0.5}}, "
-                          "'scene': [{'shape': 'sphere', 'material': 'glossy'}]}"));
+    save("s.json",
+         "{'whit': 1, 'sky': {'image': 'sky.exr', 'scale': 0.5}, "
+         "'ambient': {'fromSky': 0.5}, "
+         "'materials': {'glossy': {'specular': 0.5, 'roughness': 0.5}}, "
+         "'scene': [{'shape': 'sphere', 'material': 'glossy'}]}");
   }
 
   // Chooses other skies and goes back.
@@ -313,9 +316,9 @@ TEST_F(EditedSky, OfAModelHasNoMembersOfItsOwn) {
 // A scene that is shown as a model is has a supplied sky, which the lights make brighter.
 TEST_F(EditedSky, OfASceneWithTheViewOfAModel) {
   save("s.json",
-       asJson("{'whit': 1, 'view': 'model', 'lights': "
-              "[{'position': [1, 2, 3], 'intensity': 5}], 'materials': {'m': {'diffuse': 0.5}}, "
-              "'scene': [{'model': 'm.obj'}, {'shape': 'sphere', 'material': 'm'}]}"));
+       "{'whit': 1, 'view': 'model', 'lights': "
+       "[{'position': [1, 2, 3], 'intensity': 5}], 'materials': {'m': {'diffuse': 0.5}}, "
+       "'scene': [{'model': 'm.obj'}, {'shape': 'sphere', 'material': 'm'}]}");
   const std::string brighter = "/lights/0/intensity=500";
 
   Editing editing(folder_ / "s.json");
@@ -332,7 +335,7 @@ TEST_F(EditedSky, OfASceneWithTheViewOfAModel) {
 }
 
 TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
-  save("s.json", asJson("{'whit': 1, 'scene': [{'shape': 'sphere'}]}"));
+  save("s.json", "{'whit': 1, 'scene': [{'shape': 'sphere'}]}");
   Editing editing(folder_ / "s.json", withSky(folder_ / "sky.exr"));
   editing.scene.ambient.ofSky = 0.5;
   std::vector<std::string> settings;

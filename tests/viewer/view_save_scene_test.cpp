@@ -71,14 +71,13 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   writePng(folder_ / "sub/maps/t.png", DisplayImage{1, 1, {200, 90, 30, 255}}, {});
   fs::copy(folder_ / "sky.exr", folder_ / "sub/sky.exr");
   save("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  save(
-      "sub/s.json",
-      asJson("{'whit': 1, 'parameters': {'fov': 40}, "
-             "'cameras': {'c': {'eye': [0, 1, 4], 'at': [0, 0.5, 0], 'fov': '$fov'}}, "
-             "'sky': {'image': 'sky.exr'}, 'ambient': {'fromSky': 0.5}, "
-             "'textures': {'t': {'image': 'maps/t.png'}}, 'materials': {'m': {'diffuseMap': 't'}}, "
-             "'objects': {'o': [{'group': [{'model': 'm.obj'}]}]}, "
-             "'scene': [{'shape': 'quad', 'material': 'm'}, {'use': 'o'}]}"));
+  save("sub/s.json",
+       "{'whit': 1, 'parameters': {'fov': 40}, "
+       "'cameras': {'c': {'eye': [0, 1, 4], 'at': [0, 0.5, 0], 'fov': '$fov'}}, "
+       "'sky': {'image': 'sky.exr'}, 'ambient': {'fromSky': 0.5}, "
+       "'textures': {'t': {'image': 'maps/t.png'}}, 'materials': {'m': {'diffuseMap': 't'}}, "
+       "'objects': {'o': [{'group': [{'model': 'm.obj'}]}]}, "
+       "'scene': [{'shape': 'quad', 'material': 'm'}, {'use': 'o'}]}");
 
   const Words lines =
       commandsOf(1,
@@ -195,8 +194,9 @@ TEST_F(SavedScenes, OfATurnedModelHoldItUpright) {
 
 // The reader puts the camera that such a scene asks for before the others.
 TEST_F(SavedScenes, WithASuppliedViewNameTheirCamera) {
-  save("view.json", asJson("{'whit': 1, 'view': 'model', 'azimuth': 30, 'scene': [{'shape': 'box', "
-                           "'size': [3, 1, 1]}]}"));
+  save("view.json",
+       "{'whit': 1, 'view': 'model', 'azimuth': 30, 'scene': [{'shape': 'box', "
+       "'size': [3, 1, 1]}]}");
   scene_ = {"view.json"};
   const Words lines = commandsOf(
       2,
