@@ -350,13 +350,13 @@ TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
   EXPECT_GT(coplanar, 500u);
 }
 
-double randomBelow(std::mt19937& random, double most) {
-  return most * 0x1p-32 * static_cast<double>(random());
+auto randomBelow(std::mt19937& random) {
+  return [&random](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
 }
 
 // Returns a triangle in one of two floors; one in three is a needle.
 Mesh randomTriangle(std::mt19937& random) {
-  const auto below = [&](double most) { return randomBelow(random, most); };
+  const auto below = randomBelow(random);
   const double x = below(5), y = below(5), width = 0.5 + below(2);
   const double depth = random() % 3 == 0 ? 0.01 : 0.5 + below(2);
   Mesh mesh = tile(x, y, width, depth, static_cast<double>(random() % 2));
@@ -388,7 +388,7 @@ TEST(CoplanarTriangles, TurnedAndShearedInstancesAreAsDefined) {
 // Returns a triangle that is 2 to 4 long and as thin as is told, in any direction of a floor; its
 // tip lies anywhere along it.
 Mesh needle(std::mt19937& random, double width) {
-  const auto below = [&](double most) { return randomBelow(random, most); };
+  const auto below = randomBelow(random);
   const double angle = below(2 * kPi);
   const Vec3d along{std::cos(angle), std::sin(angle), 0}, across{-along.y, along.x, 0};
   const Vec3d tip = along * below(2) + across * width;
