@@ -66,8 +66,8 @@ TEST(Metrics, ExposureMovesTheCodesAndNotTheLinearErrors) {
 
 TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
   Image a = flat(3, 1, Rgb(1)), b = flat(3, 1, Rgb(1));
-  a.pixels[0].x = std::nanf("");
-  b.pixels[1].y = std::numeric_limits<float>::infinity();
+  a.pixels[0].x = NAN;
+  b.pixels[1].y = INFINITY;
   a.pixels[2].z = 0.5f;
 
   const ImageDifference d = compareImages(a, b);
@@ -79,7 +79,7 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
   EXPECT_TRUE(std::isfinite(d.flipMean));
 
   // Without any finite pixel the errors are 0.
-  const ImageDifference none = compareImages(flat(1, 1, Rgb(std::nanf(""))), flat(1, 1, Rgb(1)));
+  const ImageDifference none = compareImages(flat(1, 1, Rgb(NAN)), flat(1, 1, Rgb(1)));
   EXPECT_EQ(none.nonFinite, 1u);
   EXPECT_EQ(none.rmse, 0);
 }

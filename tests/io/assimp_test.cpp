@@ -315,18 +315,15 @@ std::string squareStl(const std::vector<float>& third = {}) {
   return stlOf(triangles);
 }
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
 constexpr char kBadFace[] = "face with a corner that is not finite or not there left out";
 
 TEST_F(Assimp, FacesWithCornersThatAreNotFiniteAreLeftOut) {
   const auto expected = trianglesOf(loadBytes("stl", squareStl()));
   ASSERT_EQ(expected.size(), 2u);
-  constexpr float infinite = std::numeric_limits<float>::infinity();
 
   std::uint64_t count = 0;
   for (const std::vector<float>& third :
-       {std::vector<float>{0, 0, 1, 1, 0, 1, kNan, 0, 0}, {0, 0, 1, 1, 0, 1, 0, 1, infinite}}) {
+       {std::vector<float>{0, 0, 1, 1, 0, 1, NAN, 0, 0}, {0, 0, 1, 1, 0, 1, 0, 1, INFINITY}}) {
     const std::string file = squareStl(third);
     EXPECT_EQ(trianglesOf(loadBytes("stl", file)), expected);
     expectWarned(kBadFace, ++count);
@@ -352,7 +349,7 @@ TEST_F(Assimp, WhatIsLeftOutOfOffFilesIsCounted) {
 
 // STL files have normals beside corners, OFF files have not.
 TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
-  const std::string stl = stlOf({2, {kNan, 0, 0, 1, 0, 0, 0, 1, 0}});
+  const std::string stl = stlOf({2, {NAN, 0, 0, 1, 0, 0, 0, 1, 0}});
   const std::pair<const char*, std::string> files[] = {
       {"stl", stl}, {"off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
   for (const auto& [kind, file] : files) {

@@ -163,8 +163,8 @@ TEST_F(Ply, NumbersBeyondDoubleAreInfinite) {
       loadPly(ascii(kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n");
   const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.positions[0].z, 0);
-  EXPECT_EQ(mesh.positions[1].x, std::numeric_limits<float>::infinity());
-  EXPECT_EQ(mesh.positions[2].y, -std::numeric_limits<float>::infinity());
+  EXPECT_EQ(mesh.positions[1].x, INFINITY);
+  EXPECT_EQ(mesh.positions[2].y, -INFINITY);
 }
 
 constexpr char kFourVertices[] =
