@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -54,12 +53,7 @@ class RecordingParameters : public ShapeParameters {
   const std::vector<std::string>& listed() const { return listed_; }
 
  private:
-  static std::string text(double value) {
-    std::ostringstream out;
-    out.precision(6);
-    out << value;
-    return out.str();
-  }
+  static std::string text(double value) { return formatted("%g", value); }
   void note(const std::string& key, const std::string& fallback) {
     listed_.push_back("`" + key + "` " + fallback);
   }
