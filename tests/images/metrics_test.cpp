@@ -15,7 +15,7 @@ float ofCode(int code) { return static_cast<float>(srgbToLinear(code / 255.0)); 
 
 TEST(Metrics, EqualImagesDoNotDiffer) {
   Image image(9, 5);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+  for (const auto i : indices(image.pixels))
     image.pixels[i] = Rgb(static_cast<float>(i) / 45, 0.3f, static_cast<float>(i % 7));
 
   const ImageDifference d = compareImages(image, image);

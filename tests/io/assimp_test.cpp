@@ -47,7 +47,7 @@ std::vector<PlacedTriangle> trianglesOf(const SceneDescription& scene) {
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
       for (const auto& t : mesh.triangles) {
         PlacedTriangle& placed = all.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (const auto k : indices(3)) {
           placed.corners[k] = instance.toWorld.point(Vec3d(mesh.positions.at(t[k])));
           placed.normals[k] = normalized(instance.toWorld.vector(Vec3d(mesh.normals.at(t[k]))));
           if (!mesh.colors.empty()) placed.colors[k] = mesh.colors.at(t[k]);
@@ -79,7 +79,7 @@ void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) 
   // The middle of the body is behind every face that looks out.
   for (const PlacedTriangle& t : triangles) {
     EXPECT_GT(dot(faceNormal(t), t.corners[0] - middle), 0);
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       expectNearInFloat(t.normals[k], faceNormal(t), 1e-5);
       const auto near = [&](const Vec3d& p) { return length(p - t.corners[k]) < 1e-5; };
       EXPECT_TRUE(std::ranges::any_of(corners, near));
@@ -109,7 +109,7 @@ TEST_F(Assimp, ColorsOfOff) {
     std::string text = "COFF\n3 1 0\n";
     for (const std::string corner : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += corner + color + "\n";
     const Rgb read = trianglesOf(loadBytes("off", text + "3 0 1 2\n")).at(0).colors[0];
-    expectNearInFloat(Vec3d(read), {0.502886, 0, 1}, 1e-5);
+    expectNearInFloat(read, {0.502886, 0, 1}, 1e-5);
   }
 }
 
@@ -130,7 +130,7 @@ TEST_F(Assimp, ColorBitsOfStl) {
   const Rgb colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, gray};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const Rgb& color : triangles[i].colors) {
-      expectNearInFloat(Vec3d(color), Vec3d(colors[i]), 1e-6);
+      expectNearInFloat(color, Vec3d(colors[i]), 1e-6);
     }
   }
 

@@ -13,7 +13,7 @@ const std::vector<Rgb> kTexels{{8, 6.5f, 0.3f}, {60000, 41234, 999}};
 // Expects these colors at the beginning of a picture.
 void expectTexels(const std::vector<Rgb>& pixels, const std::vector<Rgb>& wanted) {
   ASSERT_GE(pixels.size(), wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (const auto i : indices(wanted)) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(pixels[i][c], wanted[i][c], maxComponent(wanted[i]) * kOfTheLargest)
           << "pixel " << i << " channel " << c;

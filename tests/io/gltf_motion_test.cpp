@@ -382,9 +382,9 @@ TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
   attributes = ",'NORMAL':" + positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
   const std::vector<Vec3f> normals = meshOf(loadText(text())).normals;
   ASSERT_EQ(normals.size(), 3u);
-  expectNearInFloat(Vec3d(normals[0]), {0, 0, 1});
-  expectNearInFloat(Vec3d(normals[1]), {std::sqrt(0.5), std::sqrt(0.5), 0});
-  expectNearInFloat(Vec3d(normals[2]), {-1, 0, 0});
+  expectNearInFloat(normals[0], {0, 0, 1});
+  expectNearInFloat(normals[1], {std::sqrt(0.5), std::sqrt(0.5), 0});
+  expectNearInFloat(normals[2], {-1, 0, 0});
 }
 
 // A second set has the same joints once more.

@@ -58,7 +58,7 @@ TEST_F(ObjFaces, ManyVerticesAtOnePositionStayApart) {
   const Mesh mesh = onlyMesh(loadObj(text));
   EXPECT_EQ(mesh.positions.size(), 3u * kCount);
 
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (const auto i : indices(mesh.triangles)) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       ASSERT_EQ(mesh.uvs[v].x, static_cast<float>(i));
     }
@@ -107,7 +107,7 @@ TEST_F(ObjFaces, FacesThatLackANormalAreFlat) {
   EXPECT_TRUE(mesh.hasFlatFaces);
 
   ASSERT_EQ(mesh.triangles.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       EXPECT_EQ(mesh.normals[corner], i == 0 ? Vec3f(0, 0, 1) : Vec3f()) << i;
     }

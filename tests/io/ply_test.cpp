@@ -330,7 +330,7 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
 TEST_F(Ply, FilesThatAreCutShortAreRefused) {
   options_.threads = 1;
   const std::string whole = binarySquare(true);
-  for (std::size_t size = 0; size < whole.size(); ++size) {
+  for (const auto size : indices(whole)) {
     expectErrorsOf("m.ply", {{whole.substr(0, size), "3 *"}});
   }
 }
