@@ -8,9 +8,11 @@
 
 namespace whit::fuzz {
 
+using Bytes = std::vector<std::uint8_t>;
+
 // Returns the bytes cut short (seeds divisible by 4), or with one to eight of their bits flipped, a
 // third of them within the first 256 bytes, where headers are.
-inline std::vector<std::uint8_t> damaged(std::vector<std::uint8_t> bytes, std::uint32_t seed) {
+inline Bytes damaged(Bytes bytes, std::uint32_t seed) {
   if (bytes.empty()) return bytes;
 
   std::mt19937 random(seed);

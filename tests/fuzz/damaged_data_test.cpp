@@ -84,9 +84,9 @@ void tryVersionsOf(const fs::path& original, std::uint32_t versions) {
   const TemporaryFolder folder;
   const std::string scene = sceneWith(original, folder);
   const std::string text = cli::readFile(original);
-  const std::vector<std::uint8_t> whole(text.begin(), text.end());
+  const Bytes whole(text.begin(), text.end());
   for (std::uint32_t seed = 0; seed < versions; ++seed) {
-    const std::vector<std::uint8_t> bytes = damaged(whole, seed);
+    const Bytes bytes = damaged(whole, seed);
     std::ofstream(folder / original.filename(), std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
 

@@ -26,14 +26,14 @@ TEST_P(Replay, EveryFileIsReadOrRefused) {
 TEST_P(Replay, DamagedFilesAreReadOrRefused) {
   constexpr std::uint32_t kVersions = 24;
   for (const std::filesystem::path& file : corpusOf(GetParam())) {
-    const std::vector<std::uint8_t> whole = bytesOfFile(file);
+    const Bytes whole = bytesOfFile(file);
     for (std::uint32_t seed = 0; seed < kVersions; ++seed) {
       SCOPED_TRACE(file.filename().string() + ", seed " + std::to_string(seed));
       EXPECT_NO_THROW(give(GetParam(), damaged(whole, seed)));
 
       const auto middle = whole.begin() + std::ssize(whole) / 2;
-      std::vector<std::uint8_t> bytes(whole.begin(), middle);
-      const std::vector<std::uint8_t> behind = damaged({middle, whole.end()}, seed);
+      Bytes bytes(whole.begin(), middle);
+      const Bytes behind = damaged({middle, whole.end()}, seed);
       bytes.insert(bytes.end(), behind.begin(), behind.end());
       EXPECT_NO_THROW(give(GetParam(), bytes));
     }

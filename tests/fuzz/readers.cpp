@@ -213,7 +213,7 @@ void readInput(const fs::path& file) {
     for (const view::Message& m :
          view::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
       const view::Numbers& numbers = m.verb->numbers;
-      for (std::size_t i = 0; i < numbers.count; ++i) {
+      for (const auto i : indices(numbers.count)) {
         if (!(m.numbers[i] >= numbers.low && m.numbers[i] <= numbers.high)) {
           throw std::logic_error("a number out of range");
         }

@@ -21,6 +21,12 @@ class AtomicFileTest : public ImageTest {
     const Bytes bytes = load(path(name));
     return {bytes.begin(), bytes.end()};
   }
+  // Expects a link to lead what is written to this file.
+  void expectFollowed(const std::string& target) {
+    writeTextFile(path("link.txt"), "new");
+    EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+    EXPECT_EQ(text(target), "new");
+  }
 };
 
 // Every write of a file beyond `bytes` fails, as on a full disk.
@@ -88,18 +94,14 @@ TEST_F(AtomicFileTest, NamesAsLongAsTheFileSystemAllows) {
 TEST_F(AtomicFileTest, LinksAreFollowed) {
   writeTextFile(path("target.txt"), "old");
   fs::create_symlink(path("target.txt"), path("link.txt"));
-  writeTextFile(path("link.txt"), "new");
-  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
-  EXPECT_EQ(text("target.txt"), "new");
+  expectFollowed("target.txt");
 }
 
 TEST_F(AtomicFileTest, LinksToFilesThatAreNotThereAreFollowed) {
   fs::create_directory(path("sub"));
   fs::create_symlink("sub/next.txt", path("link.txt"));
   fs::create_symlink("target.txt", path("sub/next.txt"));
-  writeTextFile(path("link.txt"), "new");
-  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
-  EXPECT_EQ(text("sub/target.txt"), "new");
+  expectFollowed("sub/target.txt");
 }
 
 // A rename needs no permission to write to the file.

@@ -20,7 +20,7 @@ TEST_F(BrokenImage, EveryPrefixIsAnErrorOrTheWholePicture) {
     const RawImage whole = read(sample.name, sample.bytes);
     std::size_t refused = 0;
 
-    for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
+    for (const auto size : indices(sample.bytes)) {
       const std::string file = save(sample.name, slice(sample.bytes, 0, size));
       const std::string refusal = refusalOf(
           ExitStatus::badScene, [&] { EXPECT_TRUE(samePicture(read(file), whole)) << size; });

@@ -72,7 +72,7 @@ TEST(ToneCurve, Filmic) {
 TEST(ToDisplay, ExposureCurveAndWindow) {
   Image image(10, 10, {4, 5, 6, 6});
   image.at(4, 5) = Rgb(0.25f, 1, 0);
-  image.at(5, 5) = Rgb(std::nanf(""), -1, static_cast<float>(kInfinity));
+  image.at(5, 5) = Rgb(NAN, -1, INFINITY);
 
   const DisplayImage plain = toDisplay(image, 2, ToneCurve::none);
   EXPECT_EQ(plain.width, 2);

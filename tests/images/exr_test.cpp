@@ -73,7 +73,7 @@ TEST_F(ExrTest, FloatsKeepTheirBits) {
   }
 
   using Limits = std::numeric_limits<float>;
-  image.pixels[0] = {std::bit_cast<float>(0x7fc12345u), Limits::infinity(), -Limits::infinity()};
+  image.pixels[0] = {std::bit_cast<float>(0x7fc12345u), INFINITY, -INFINITY};
   image.pixels[1] = {Limits::denorm_min(), Limits::max(), -0.0f};
   expectStored(image);
   expectStored(image, ExrStorage::none);
@@ -197,10 +197,10 @@ TEST_F(ExrTest, ColorsOfTexturesAreDividedByAlpha) {
   constexpr float kLargestHalf = 65504;  // stands for infinity
   for (const Stored& s :
        {Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0.1f}, {"A", 0.5f}}, {1, 0.5f, 0.2f, 0.5f}},
-        Stored{{{"Y", 0.5f}, {"A", 0.25f}}, {2, 0.25f}},
-        Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}, {"A", 0}}, {0.5f, 0.25f, 0, 0}},
-        Stored{{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}}, {0.5f, 0.25f, 0}},
-        Stored{{{"Y", 1e38f}, {"A", 0.125f}}, {kLargestHalf, 0.125f}}}) {
+        {{{"Y", 0.5f}, {"A", 0.25f}}, {2, 0.25f}},
+        {{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}, {"A", 0}}, {0.5f, 0.25f, 0, 0}},
+        {{{"R", 0.5f}, {"G", 0.25f}, {"B", 0}}, {0.5f, 0.25f, 0}},
+        {{{"Y", 1e38f}, {"A", 0.125f}}, {kLargestHalf, 0.125f}}}) {
     ForeignFile file{s.channels};
     file.display = file.data = {{0, 0}, {0, 0}};
     EXPECT_EQ(readStraightImage(write(file), limits_, warnings_).values, s.texel);
@@ -376,8 +376,7 @@ TEST_F(ExrTest, OtherPrimariesAreSaidToBeLeftOut) {
 
 TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
   Image image(2, 1);
-  image.pixels = {Rgb(std::nanf(""), -1, std::numeric_limits<float>::infinity()),
-                  Rgb(-std::numeric_limits<float>::infinity(), 1e38f, 2)};
+  image.pixels = {Rgb(NAN, -1, INFINITY), Rgb(-INFINITY, 1e38f, 2)};
   expectStored(image);
   EXPECT_TRUE(warnings_.entries().empty());
 
@@ -395,8 +394,8 @@ TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
 // that are too large stay finite.
 TEST_F(ExrTest, HalvesAreTheNearest) {
   Image image = smooth();
-  image.at(0, 0) = {1e6f, std::numeric_limits<float>::infinity(), -1e6f};
-  image.at(1, 0) = {std::numeric_limits<float>::quiet_NaN(), 0, 65504};
+  image.at(0, 0) = {1e6f, INFINITY, -1e6f};
+  image.at(1, 0) = {NAN, 0, 65504};
 
   const Image back = stored(image, ExrStorage::half);
   EXPECT_EQ(back.at(0, 0), (Rgb{65504, 65504, -65504}));

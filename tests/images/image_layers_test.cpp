@@ -10,6 +10,8 @@
 namespace whit {
 namespace {
 
+using Codes = std::vector<std::uint16_t>;
+
 // Channels of the pixels of a 4x3 picture that are in a window, with values that half floats and 16
 // bits would not hold.
 ChannelLayers sampleChannels(const Crop& window = {0, 0, 4, 3}) {
@@ -113,7 +115,7 @@ TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
 }
 
 // Returns the values of a PNG of 16 bits as libpng reads them.
-std::vector<std::uint16_t> readPng16(const std::string& path, int& channels, bool& isSrgb) {
+Codes readPng16(const std::string& path, int& channels, bool& isSrgb) {
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
@@ -123,7 +125,7 @@ std::vector<std::uint16_t> readPng16(const std::string& path, int& channels, boo
   isSrgb = png_get_valid(png, info, PNG_INFO_sRGB | PNG_INFO_gAMA | PNG_INFO_cHRM) != 0;
   channels = png_get_channels(png, info);
 
-  std::vector<std::uint16_t> values;
+  Codes values;
   std::vector<std::uint8_t> row(png_get_rowbytes(png, info));
   for (png_uint_32 y = 0; y < png_get_image_height(png, info); ++y) {
     png_read_row(png, row.data(), nullptr);
@@ -141,8 +143,7 @@ class ChannelPng : public ImageLayers {
  protected:
   // Writes a picture of two pixels, of which the first has these values and the second shows no
   // surface, and returns the codes in the file.
-  std::vector<std::uint16_t> codes(Channel channel, const ChannelValues& values,
-                                   std::uint32_t rays = 1) {
+  Codes codes(Channel channel, const ChannelValues& values, std::uint32_t rays = 1) {
     ChannelLayers layers;
     layers.resize(ChannelSet().with(channel), 2);
     layers.keep(0, values);
@@ -158,8 +159,6 @@ class ChannelPng : public ImageLayers {
   int components_ = 0;
   bool isSrgb_ = false;  // the file names the color space of its codes
 };
-
-using Codes = std::vector<std::uint16_t>;
 
 TEST_F(ChannelPng, DepthIsInThousandthsOfAUnit) {
   ChannelValues v;

@@ -26,6 +26,9 @@ class MergeImages : public ImageTest {
   MergedImage merge(const std::vector<std::string>& paths) {
     return mergeImages(paths, limits_, warnings_);
   }
+  ExitStatus statusOf(const std::vector<std::string>& paths) {
+    return whit::statusOf([&] { merge(paths); });
+  }
 };
 
 // Two of the parts overlap, and agree.
@@ -62,7 +65,7 @@ TEST_F(MergeImages, WhereOverlapsDifferTheLaterWinsAndIsCounted) {
 
   // Strict warnings are errors.
   Warnings strict(true);
-  EXPECT_EQ(statusOf([&] {
+  EXPECT_EQ(whit::statusOf([&] {
               mergeImages({path("a.exr"), path("b.exr")}, limits_, strict);
             }),
             ExitStatus::badScene);
@@ -78,9 +81,9 @@ TEST_F(MergeImages, GapsAreNamed) {
 
 TEST_F(MergeImages, SizesMustMatch) {
   const std::string eight = part("a.exr", {0, 0, 8, 6}), nine = part("b.exr", {0, 0, 9, 6}, 0, 9);
-  EXPECT_EQ(statusOf([&] { merge({eight, nine}); }), ExitStatus::usage);
-  EXPECT_EQ(statusOf([&] { merge({}); }), ExitStatus::usage);
-  EXPECT_EQ(statusOf([&] { merge({path("absent.exr")}); }), ExitStatus::io);
+  EXPECT_EQ(statusOf({eight, nine}), ExitStatus::usage);
+  EXPECT_EQ(statusOf({}), ExitStatus::usage);
+  EXPECT_EQ(statusOf({path("absent.exr")}), ExitStatus::io);
 }
 
 TEST_F(MergeImages, KeepsTheTextThatAllPartsAgreeOn) {
@@ -137,12 +140,12 @@ TEST_F(MergeImages, RefusesPartsOfOtherPictures) {
 
   // Parts that say nothing, as other programs write them, are merged.
   const std::string bare = part("c.exr", {0, 3, 8, 6});
-  EXPECT_EQ(statusOf([&] { merge({first, bare}); }), ExitStatus::done);
+  EXPECT_EQ(statusOf({first, bare}), ExitStatus::done);
 
   // Their place in the list does not hide that others differ.
   const std::string other = part("d.exr", {0, 3, 8, 6}, {{"spp", "16"}});
-  EXPECT_EQ(statusOf([&] { merge({first, bare, other}); }), ExitStatus::usage);
-  EXPECT_EQ(statusOf([&] { merge({bare, first, other}); }), ExitStatus::usage);
+  EXPECT_EQ(statusOf({first, bare, other}), ExitStatus::usage);
+  EXPECT_EQ(statusOf({bare, first, other}), ExitStatus::usage);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ float ofCode(int code) { return static_cast<float>(srgbToLinear(code / 255.0)); 
 
 TEST(Metrics, EqualImagesDoNotDiffer) {
   Image image(9, 5);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+  for (const auto i : indices(image.pixels))
     image.pixels[i] = Rgb(static_cast<float>(i) / 45, 0.3f, static_cast<float>(i % 7));
 
   const ImageDifference d = compareImages(image, image);
@@ -66,8 +66,8 @@ TEST(Metrics, ExposureMovesTheCodesAndNotTheLinearErrors) {
 
 TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
   Image a = flat(3, 1, Rgb(1)), b = flat(3, 1, Rgb(1));
-  a.pixels[0].x = std::nanf("");
-  b.pixels[1].y = std::numeric_limits<float>::infinity();
+  a.pixels[0].x = NAN;
+  b.pixels[1].y = INFINITY;
   a.pixels[2].z = 0.5f;
 
   const ImageDifference d = compareImages(a, b);
@@ -79,7 +79,7 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
   EXPECT_TRUE(std::isfinite(d.flipMean));
 
   // Without any finite pixel the errors are 0.
-  const ImageDifference none = compareImages(flat(1, 1, Rgb(std::nanf(""))), flat(1, 1, Rgb(1)));
+  const ImageDifference none = compareImages(flat(1, 1, Rgb(NAN)), flat(1, 1, Rgb(1)));
   EXPECT_EQ(none.nonFinite, 1u);
   EXPECT_EQ(none.rmse, 0);
 }

@@ -26,17 +26,17 @@ class ReadBmp : public ImageTest {
 
 TEST_F(ReadBmp, RowsBeginAtTheBottomAndArePadded) {
   EXPECT_EQ(codesOf({}, palette(8), {1, 2, 3, 0, 4, 5, 6, 0}), colorsOf({4, 5, 6, 1, 2, 3}));
-  EXPECT_EQ(codesOf({.width = 1, .bits = 24}, {}, {3, 2, 1, 0, 6, 5, 4}),
-            (Bytes{4, 5, 6, 1, 2, 3}));
+  Bytes file = bmpOf({.width = 1, .bits = 24}, {}, {3, 2, 1, 0, 6, 5, 4});
+  const Bytes codes{4, 5, 6, 1, 2, 3};
+  EXPECT_EQ(read("a.bmp", file).codes, codes);
 
   // With a negative height they begin at the top.
   EXPECT_EQ(codesOf({.height = -2}, palette(8), {1, 2, 3, 0, 4, 5, 6, 0}),
             colorsOf({1, 2, 3, 4, 5, 6}));
 
   // Some programs leave the length of the file at 0.
-  Bytes file = bmpOf({.width = 1, .bits = 24}, {}, {3, 2, 1, 0, 6, 5, 4});
   std::fill_n(file.begin() + 2, 4, std::uint8_t{0});
-  EXPECT_EQ(read("a.bmp", file).codes, (Bytes{4, 5, 6, 1, 2, 3}));
+  EXPECT_EQ(read("a.bmp", file).codes, codes);
 }
 
 TEST_F(ReadBmp, MasksInTheUsualOrder) {

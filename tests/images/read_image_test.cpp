@@ -93,7 +93,7 @@ TEST_F(ReadImage, RadianceIsLinear) {
 TEST_F(ReadImage, RadianceWithRunLengths) {
   const RawImage image = read("a.hdr", hdrRuns(9, 2, {128, 64, 0, 128}));
   ASSERT_EQ(image.values.size(), 54u);
-  for (std::size_t i = 0; i < 18; ++i) EXPECT_EQ(linearPixel(image, i), Rgb(0.5f, 0.25f, 0));
+  for (const auto i : indices(18)) EXPECT_EQ(linearPixel(image, i), Rgb(0.5f, 0.25f, 0));
 }
 
 TEST_F(ReadImage, ReadImageDecodesSrgb) {

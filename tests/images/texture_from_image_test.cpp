@@ -86,7 +86,7 @@ TEST(TextureFromImage, KeepsNameSizeAndOrder) {
   EXPECT_EQ(texture.format, TexelFormat::data);
   EXPECT_EQ(texture.width, 2);
   EXPECT_EQ(texture.height, 3);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(texture.texels[i] & 255, i + 1);
+  for (const auto i : indices(6)) EXPECT_EQ(texture.texels[i] & 255, i + 1);
 }
 
 TEST(EnvironmentFromImage, HasLinearPlanes) {

@@ -47,7 +47,7 @@ std::vector<PlacedTriangle> trianglesOf(const SceneDescription& scene) {
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
       for (const auto& t : mesh.triangles) {
         PlacedTriangle& placed = all.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (const auto k : indices(3)) {
           placed.corners[k] = instance.toWorld.point(Vec3d(mesh.positions.at(t[k])));
           placed.normals[k] = normalized(instance.toWorld.vector(Vec3d(mesh.normals.at(t[k]))));
           if (!mesh.colors.empty()) placed.colors[k] = mesh.colors.at(t[k]);
@@ -79,7 +79,7 @@ void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) 
   // The middle of the body is behind every face that looks out.
   for (const PlacedTriangle& t : triangles) {
     EXPECT_GT(dot(faceNormal(t), t.corners[0] - middle), 0);
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       expectNearInFloat(t.normals[k], faceNormal(t), 1e-5);
       const auto near = [&](const Vec3d& p) { return length(p - t.corners[k]) < 1e-5; };
       EXPECT_TRUE(std::ranges::any_of(corners, near));
@@ -109,7 +109,7 @@ TEST_F(Assimp, ColorsOfOff) {
     std::string text = "COFF\n3 1 0\n";
     for (const std::string corner : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += corner + color + "\n";
     const Rgb read = trianglesOf(loadBytes("off", text + "3 0 1 2\n")).at(0).colors[0];
-    expectNearInFloat(Vec3d(read), {0.502886, 0, 1}, 1e-5);
+    expectNearInFloat(read, {0.502886, 0, 1}, 1e-5);
   }
 }
 
@@ -130,7 +130,7 @@ TEST_F(Assimp, ColorBitsOfStl) {
   const Rgb colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, gray};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const Rgb& color : triangles[i].colors) {
-      expectNearInFloat(Vec3d(color), Vec3d(colors[i]), 1e-6);
+      expectNearInFloat(color, Vec3d(colors[i]), 1e-6);
     }
   }
 
@@ -315,18 +315,15 @@ std::string squareStl(const std::vector<float>& third = {}) {
   return stlOf(triangles);
 }
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
 constexpr char kBadFace[] = "face with a corner that is not finite or not there left out";
 
 TEST_F(Assimp, FacesWithCornersThatAreNotFiniteAreLeftOut) {
   const auto expected = trianglesOf(loadBytes("stl", squareStl()));
   ASSERT_EQ(expected.size(), 2u);
-  constexpr float infinite = std::numeric_limits<float>::infinity();
 
   std::uint64_t count = 0;
   for (const std::vector<float>& third :
-       {std::vector<float>{0, 0, 1, 1, 0, 1, kNan, 0, 0}, {0, 0, 1, 1, 0, 1, 0, 1, infinite}}) {
+       {std::vector<float>{0, 0, 1, 1, 0, 1, NAN, 0, 0}, {0, 0, 1, 1, 0, 1, 0, 1, INFINITY}}) {
     const std::string file = squareStl(third);
     EXPECT_EQ(trianglesOf(loadBytes("stl", file)), expected);
     expectWarned(kBadFace, ++count);
@@ -352,7 +349,7 @@ TEST_F(Assimp, WhatIsLeftOutOfOffFilesIsCounted) {
 
 // STL files have normals beside corners, OFF files have not.
 TEST_F(Assimp, AFileOfBadFacesAloneShowsNothing) {
-  const std::string stl = stlOf({2, {kNan, 0, 0, 1, 0, 0, 0, 1, 0}});
+  const std::string stl = stlOf({2, {NAN, 0, 0, 1, 0, 0, 0, 1, 0}});
   const std::pair<const char*, std::string> files[] = {
       {"stl", stl}, {"off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
   for (const auto& [kind, file] : files) {

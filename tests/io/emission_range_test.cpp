@@ -8,12 +8,12 @@ namespace {
 // keeps 9 bits a channel and a shared exponent. Conversions add a few roundings.
 constexpr float kOfTheLargest = 1.0f / 512 + 1e-6f;
 
-const std::vector<Rgb> kTexels{{8, 6.5f, 0.3f}, {60000, 41234, 999}};
+const Colors kTexels{{8, 6.5f, 0.3f}, {60000, 41234, 999}};
 
 // Expects these colors at the beginning of a picture.
-void expectTexels(const std::vector<Rgb>& pixels, const std::vector<Rgb>& wanted) {
+void expectTexels(const Colors& pixels, const Colors& wanted) {
   ASSERT_GE(pixels.size(), wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (const auto i : indices(wanted)) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(pixels[i][c], wanted[i][c], maxComponent(wanted[i]) * kOfTheLargest)
           << "pixel " << i << " channel " << c;
@@ -23,14 +23,14 @@ void expectTexels(const std::vector<Rgb>& pixels, const std::vector<Rgb>& wanted
 
 class EmissionRange : public GltfMaterials {
  protected:
-  void saveExr(const std::vector<Rgb>& texels) const {
+  void saveExr(const Colors& texels) const {
     Image image(static_cast<int>(texels.size()), 1);
     image.pixels = texels;
     writeExr(root_ + "glow.exr", image, {});
   }
 
   // Returns pixels that each see the middle of one texel, traced in packets or by the reference.
-  std::vector<Rgb> pixels(bool reference) {
+  Colors pixels(bool reference) {
     return pixelsOf(
         bake(loadMembers(
             "'size': [2, 1], 'cameras': {'above': {'eye': [0, 3, 0], 'at': [0, 0, 0], 'up': [0, 0, "

@@ -29,7 +29,7 @@ const Vec3d kFirst{4000000.1, 500000.2, 10};
 
 std::array<Vec3d, 3> cornersOf(const SceneDescription& scene) {
   std::array<Vec3d, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     corners[i] = scene.inFile(Vec3d(Vec3f(cornerOf(scene, i))));
   }
   return corners;

@@ -71,7 +71,7 @@ class GltfAlphas : public GltfMaterials {
                  "'doubleSided':true,'alphaMode':" + mode);
   }
 
-  static void expectColumns(const std::vector<Rgb>& picture, const std::vector<float>& grays) {
+  static void expectColumns(const Colors& picture, const std::vector<float>& grays) {
     for (std::size_t i = 0; i < 4; ++i) expectColor(picture[4 + i], Rgb(grays[i]));
   }
 

@@ -25,14 +25,14 @@ void expectGrid(const SceneDescription& scene) {
   double area = 0;
   for (const auto& t : mesh.triangles) {
     std::array<Vec3d, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       ASSERT_LT(t[k], mesh.positions.size());
       p[k] = scene.instances.at(0).toWorld.point(Vec3d(mesh.positions[t[k]]));
       // x and y are multiples of 1/2.
       EXPECT_NEAR(p[k].z, std::abs(p[k].x - 0.5) < 0.1 ? 0.25 : 0, kPositionStep);
       EXPECT_NEAR(p[k].x * 2, std::round(p[k].x * 2), 2 * kPositionStep);
       EXPECT_NEAR(p[k].y * 2, std::round(p[k].y * 2), 2 * kPositionStep);
-      expectNearInFloat(Vec3d(mesh.normals.at(t[k])), {0, 0, 1}, kNormalStep);
+      expectNearInFloat(mesh.normals.at(t[k]), {0, 0, 1}, kNormalStep);
       EXPECT_NEAR(mesh.colors.at(t[k]).x, p[k].x, kColorStep);
       EXPECT_NEAR(mesh.colors.at(t[k]).y, p[k].y, kColorStep);
     }
@@ -137,7 +137,7 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
     expectNearInFloat(cornerOf(scene, 0, i), {0, 0, 0}, 1e-9);
   }
 
-  expectNearInFloat(Vec3d(meshOf(scene).normals.at(0)), {0, 0, 1}, 1e-3);
+  expectNearInFloat(meshOf(scene).normals.at(0), {0, 0, 1}, 1e-3);
 
   // The decoded size is checked before memory is allocated.
   expectErrorsOfDamage(

@@ -16,12 +16,12 @@ inline std::string base64(const std::string& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     // Three bytes are 24 bits, which four digits of 6 bits encode.
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       const bool there = i + k < bytes.size();
       group = group << 8 | (there ? static_cast<unsigned char>(bytes[i + k]) : 0u);
     }
 
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (const auto k : indices(4)) {
       text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
     }
   }

@@ -146,7 +146,7 @@ TEST_F(GltfGeometry, NormalsAreTakenOrFlat) {
   const std::string normal = ",'NORMAL':" + add("VEC3", up, 4, kNormalized);
   const std::string position = positions(kTriangleXyz);
 
-  expectNearInFloat(Vec3d(meshOf(loadShown(primitive(position, normal))).normals[1]), {0, 1, 0});
+  expectNearInFloat(meshOf(loadShown(primitive(position, normal))).normals[1], {0, 1, 0});
   EXPECT_TRUE(meshOf(loadShown(primitive(position))).normals.empty());
 }
 

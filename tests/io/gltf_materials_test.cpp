@@ -50,7 +50,7 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
 
   struct Case {
     std::string sampler, transform;
-    std::vector<Rgb> colors;
+    Colors colors;
   };
   const Case cases[] = {
       {"", "'offset':[0.5,0]", {green, red, white, blue}},
@@ -78,7 +78,7 @@ TEST_F(GltfMaterials, NearestSamplersDoNotInterpolate) {
     useRows({{"ffffff", "000000"}}, sampler);
     return picture(matte("'baseColorTexture':{'index':0}"), 8);
   };
-  std::vector<Rgb> wanted;
+  Colors wanted;
   for (const double x : {-3.5, -2.5, -1.5, -0.5}) wanted.emplace_back(lit(x / 4, 0.875));
   wanted.resize(8, Rgb(0.0f));
   expectColors(row("'magFilter':9728"), wanted);
@@ -91,7 +91,7 @@ TEST_F(GltfMaterials, OcclusionDimsIndirectLight) {
   const auto expectAmbient = [&](const std::string& texture, const std::vector<float>& ambient) {
     SceneDescription d = loadMaterial(matte("", "'occlusionTexture':{'index':" + texture + "}"));
     d.ambient.up = d.ambient.down = Rgb(0.5f);
-    const std::vector<Rgb> shown = pictureOf(std::move(d), 2);
+    const Colors shown = pictureOf(std::move(d), 2);
     for (std::size_t i = 0; i < ambient.size(); ++i) {
       expectColor(shown[i], Rgb(lit(0.5, 0.5) + ambient[i]));
     }

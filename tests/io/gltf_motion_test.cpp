@@ -1,6 +1,5 @@
 // Animations, skins and morph targets of glTF files, against poses worked out by hand.
 #include <cmath>
-#include <limits>
 
 #include "bake/edit_scene.h"
 #include "farthest_in_picture.h"
@@ -198,7 +197,6 @@ TEST_F(GltfMotion, OtherAnimationsDoNotChangeTheSuppliedView) {
 }
 
 TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   struct Case {
     std::vector<float> times, to;
     std::string error;
@@ -207,11 +205,11 @@ TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
       {{0, 0},
        {0, 0, 0, 1, 0, 0},
        "input: expected finite times that increase, found 0 at index 1"},
-      {{0, kNone, 1},
+      {{0, NAN, 1},
        {0, 0, 0, 1, 0, 0, 0, 0, 0},
        "input: expected finite times that increase, found nan at index 1"},
       {{0, 1}, {0, 0, 0}, "output: expected 6 numbers for 2 times, found 3"},
-      {{0, 1}, {0, 0, 0, kNone, 0, 0}, "output: expected finite numbers, found one that is not"},
+      {{0, 1}, {0, 0, 0, NAN, 0, 0}, "output: expected finite numbers, found one that is not"},
   };
 
   for (const auto& [times, to, error] : cases) {
@@ -384,9 +382,9 @@ TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
   attributes = ",'NORMAL':" + positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
   const std::vector<Vec3f> normals = meshOf(loadText(text())).normals;
   ASSERT_EQ(normals.size(), 3u);
-  expectNearInFloat(Vec3d(normals[0]), {0, 0, 1});
-  expectNearInFloat(Vec3d(normals[1]), {std::sqrt(0.5), std::sqrt(0.5), 0});
-  expectNearInFloat(Vec3d(normals[2]), {-1, 0, 0});
+  expectNearInFloat(normals[0], {0, 0, 1});
+  expectNearInFloat(normals[1], {std::sqrt(0.5), std::sqrt(0.5), 0});
+  expectNearInFloat(normals[2], {-1, 0, 0});
 }
 
 // A second set has the same joints once more.

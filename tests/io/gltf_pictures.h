@@ -23,6 +23,8 @@ inline constexpr float kRoughestAlbedo = 0.30685282f;
 // The linear light of code 188 in sRGB.
 inline constexpr float kCode188 = 0.502886f;
 
+using Colors = std::vector<Rgb>;
+
 // [-1, 1]^2 at `z`, facing +z, its texture upright and not mirrored as seen from there.
 struct Square {
   std::string material;  // JSON
@@ -77,14 +79,14 @@ class GltfMaterials : public GltfTest {
   SceneDescription loadMaterial(const std::string& material) { return loadSquares({{material}}); }
 
   // n x n pixels, row by row from the top.
-  std::vector<Rgb> pictureOf(SceneDescription description, int n) {
+  Colors pictureOf(SceneDescription description, int n) {
     const Scene scene = bake(std::move(description));
     rendering_.size = ImageSize{n, n};
     return pixelsOf(scene);
   }
 
   // The picture of the first camera, traced in packets or by the reference.
-  std::vector<Rgb> pixelsOf(const Scene& scene, bool reference = false) const {
+  Colors pixelsOf(const Scene& scene, bool reference = false) const {
     Renderer renderer(scene, rendering_);
     Film film = makeFilm(scene, rendering_);
     if (reference) {
@@ -95,11 +97,11 @@ class GltfMaterials : public GltfTest {
     return film.image.pixels;
   }
 
-  std::vector<Rgb> picture(const std::vector<Square>& squares, int n = 1) {
+  Colors picture(const std::vector<Square>& squares, int n = 1) {
     return pictureOf(loadSquares(squares), n);
   }
 
-  std::vector<Rgb> picture(const std::string& material, int n = 1) {
+  Colors picture(const std::string& material, int n = 1) {
     return pictureOf(loadMaterial(material), n);
   }
 
@@ -154,8 +156,7 @@ class GltfMaterials : public GltfTest {
   }
 
   // Expects these colors at the beginning of a picture or texture.
-  static void expectColors(const std::vector<Rgb>& got, const std::vector<Rgb>& wanted,
-                           double tolerance = kClose) {
+  static void expectColors(const Colors& got, const Colors& wanted, double tolerance = kClose) {
     ASSERT_GE(got.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       SCOPED_TRACE(i);

@@ -28,8 +28,8 @@ class GltfSizes : public GltfMaterials {
   }
 
   // Returns the texture that is made of the two with this sampler, and its colors.
-  std::pair<Texture, std::vector<Rgb>> made(const Texels& base, const Texels& metal,
-                                            const std::string& sampler) {
+  std::pair<Texture, Colors> made(const Texels& base, const Texels& metal,
+                                  const std::string& sampler) {
     useRows({base, metal}, sampler);
     const SceneDescription d = loadMaterial(mixed());
     const std::int32_t map = d.materials[0].diffuseMap;
@@ -37,9 +37,9 @@ class GltfSizes : public GltfMaterials {
   }
 
   // Expects one row of texels whose shares of red are given, times what is no metal.
-  static void expectRow(const std::vector<Rgb>& colors, const std::vector<float>& reds,
+  static void expectRow(const Colors& colors, const std::vector<float>& reds,
                         const std::vector<float>& rest) {
-    std::vector<Rgb> wanted;
+    Colors wanted;
     for (std::size_t i = 0; i < reds.size(); ++i) {
       wanted.push_back(Rgb{reds[i], 1 - reds[i], 0} * rest[i]);
     }
@@ -120,7 +120,7 @@ TEST_F(GltfSizes, AColorOfTheReflectionKeepsItsTexels) {
       "'extensions':{'KHR_materials_specular':{'specularColorTexture':{'index':0}}}}");
 
   const Material& m = d.materials[0];
-  const std::vector<Rgb> colors = colorsOf(d, m.specularMap);
+  const Colors colors = colorsOf(d, m.specularMap);
   ASSERT_EQ(colors.size(), 2u);
   expectColors({colors[0] * m.specular, colors[1] * m.specular}, {{0.04f, 0, 0}, {0, 0.04f, 0}});
 }

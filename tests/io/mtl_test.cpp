@@ -181,8 +181,7 @@ TEST_F(Mtl, MapsOfMetalnessRoughnessAndEmission) {
   const Material& m = scene.materials[0];
 
   constexpr float kTexel = 2e-3f;  // 10 bits of a square root
-  const std::vector<Rgb> diffuse = colorsOf(scene, m.diffuseMap),
-                         specular = colorsOf(scene, m.specularMap);
+  const Colors diffuse = colorsOf(scene, m.diffuseMap), specular = colorsOf(scene, m.specularMap);
   EXPECT_NEAR(diffuse[0].x * m.diffuse.x, 0, kTexel);
   EXPECT_NEAR(diffuse[1].x * m.diffuse.x, 0.5f, kTexel);
   EXPECT_NEAR(specular[0].x * m.specular.x, 0.5f, kTexel);

@@ -20,7 +20,7 @@ void expectMembers(const Noun& noun, const std::string& members, int roundings =
     } else {
       EXPECT_GT(got.size(), 0u) << member.name;
     }
-    for (std::size_t i = 0; i < got.size(); ++i) {
+    for (const auto i : indices(got.size())) {
       const Json& a = got.is_array() ? got[i] : got;
       const Json& b = right.is_array() ? right.at(i) : right;
       if (a.is_number()) {

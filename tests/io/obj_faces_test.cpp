@@ -18,10 +18,10 @@ Mesh onlyMesh(const SceneDescription& scene) {
   return meshOf(scene);
 }
 
-using Corners = std::vector<Vec3f>;
+using Vectors = std::vector<Vec3f>;
 
-Corners cornersOf(const Mesh& mesh) {
-  Corners corners;
+Vectors cornersOf(const Mesh& mesh) {
+  Vectors corners;
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t v : t) corners.push_back(mesh.positions[v]);
   }
@@ -34,7 +34,7 @@ TEST_F(ObjFaces, EveryFormOfCorner) {
         "f -4/-3/-1 -3/-2/-1 -2/-1/-1", "f\t1\t2 \t3 ", "  f 1 2 3  # a comment 4 5"}) {
     const SceneDescription scene =
         loadObj(kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n" + face + "\n");
-    EXPECT_EQ(cornersOf(onlyMesh(scene)), (Corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})) << face;
+    EXPECT_EQ(cornersOf(onlyMesh(scene)), (Vectors{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})) << face;
     EXPECT_EQ(kinds(), "") << face;
   }
 }
@@ -58,7 +58,7 @@ TEST_F(ObjFaces, ManyVerticesAtOnePositionStayApart) {
   const Mesh mesh = onlyMesh(loadObj(text));
   EXPECT_EQ(mesh.positions.size(), 3u * kCount);
 
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (const auto i : indices(mesh.triangles)) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       ASSERT_EQ(mesh.uvs[v].x, static_cast<float>(i));
     }
@@ -107,7 +107,7 @@ TEST_F(ObjFaces, FacesThatLackANormalAreFlat) {
   EXPECT_TRUE(mesh.hasFlatFaces);
 
   ASSERT_EQ(mesh.triangles.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       EXPECT_EQ(mesh.normals[corner], i == 0 ? Vec3f(0, 0, 1) : Vec3f()) << i;
     }
@@ -127,7 +127,7 @@ TEST_F(ObjFaces, PolygonsThatAreNotConvex) {
 }
 
 TEST_F(ObjFaces, LineEndsAndContinuations) {
-  const Corners expected{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  const Vectors expected{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
 
   // The line ends of Unix, of Windows and of old Macs.
   std::string unix = kSquare + "f 1 2 3", dos, mac;
@@ -208,11 +208,9 @@ TEST_F(ObjFaces, PositionsWithoutZ) {
 TEST_F(ObjFaces, SmoothingGroups) {
   const std::string corners = "v 0 0 0\nv 0 0 -1\nv 1 0 -1\nv 1 0 0\nv 0 1 0\nv 0 1 -1\n";
   const auto normalsAtEdge = [&](const std::string& first, const std::string& second) {
-    const SceneDescription scene =
-        loadObj(corners + first + "f 1 4 3 2\n" + second + "f 1 2 6 5\n");
-    const Mesh& mesh = meshOf(scene);
+    const Mesh mesh = meshOf(loadObj(corners + first + "f 1 4 3 2\n" + second + "f 1 2 6 5\n"));
 
-    std::vector<Vec3f> found;
+    Vectors found;
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {
         const bool isAtEdge = mesh.positions[corner] == Vec3f(0, 0, 0);
@@ -224,13 +222,13 @@ TEST_F(ObjFaces, SmoothingGroups) {
   };
 
   const float half = std::sqrt(0.5f);
-  const std::vector<Vec3f> smooth = normalsAtEdge("s 1\n", "");
+  const Vectors smooth = normalsAtEdge("s 1\n", "");
   ASSERT_GE(smooth.size(), 2u);
   for (const Vec3f& normal : smooth) EXPECT_LT(length(normal - Vec3f(half, half, 0)), 1e-6f);
 
-  EXPECT_EQ(normalsAtEdge("s off\n", ""), std::vector<Vec3f>());
+  EXPECT_EQ(normalsAtEdge("s off\n", ""), Vectors());
   EXPECT_EQ(normalsAtEdge("s 1\n", "s 0\n").front(), Vec3f(0, 1, 0));
-  const std::vector<Vec3f> apart = normalsAtEdge("s 1\n", "s 2\n");
+  const Vectors apart = normalsAtEdge("s 1\n", "s 2\n");
   EXPECT_EQ(apart.front(), Vec3f(0, 1, 0));
   EXPECT_EQ(apart.back(), Vec3f(1, 0, 0));
 }

@@ -101,13 +101,12 @@ TEST_F(Ply, ColorsOfVertices) {
 }
 
 TEST_F(Ply, NormalsAndTextureCoordinates) {
-  const SceneDescription scene =
+  const Mesh mesh = meshOf(
       loadPly(ascii("element vertex 3\nproperty float nx\nproperty float ny\nproperty float nz\n"
                     "property float x\nproperty float y\nproperty float z\nproperty float s\n"
                     "property float t\nelement face 1\nproperty list uchar int vertex_indices\n") +
-              "0 0 1 0 0 0 0.5 0.25\n0 0 1 1 0 0 1 0\n0 0 1 +0 1e0 0 0 1\n3 0 1 2\n");
+              "0 0 1 0 0 0 0.5 0.25\n0 0 1 1 0 0 1 0\n0 0 1 +0 1e0 0 0 1\n3 0 1 2\n"));
 
-  const Mesh& mesh = meshOf(scene);
   EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uvs[0], (Vec2f{0.5f, 0.25f}));
   EXPECT_EQ(mesh.positions[2], Vec3f(0, 1, 0));
@@ -159,12 +158,11 @@ TEST_F(Ply, StripsAndTheirRestarts) {
 
 // A number too large for a double is infinite. It must not become 0, which is a valid position.
 TEST_F(Ply, NumbersBeyondDoubleAreInfinite) {
-  const SceneDescription scene =
-      loadPly(ascii(kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n");
-  const Mesh& mesh = meshOf(scene);
+  const Mesh mesh =
+      meshOf(loadPly(ascii(kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n"));
   EXPECT_EQ(mesh.positions[0].z, 0);
-  EXPECT_EQ(mesh.positions[1].x, std::numeric_limits<float>::infinity());
-  EXPECT_EQ(mesh.positions[2].y, -std::numeric_limits<float>::infinity());
+  EXPECT_EQ(mesh.positions[1].x, INFINITY);
+  EXPECT_EQ(mesh.positions[2].y, -INFINITY);
 }
 
 constexpr char kFourVertices[] =
@@ -330,7 +328,7 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
 TEST_F(Ply, FilesThatAreCutShortAreRefused) {
   options_.threads = 1;
   const std::string whole = binarySquare(true);
-  for (std::size_t size = 0; size < whole.size(); ++size) {
+  for (const auto size : indices(whole)) {
     expectErrorsOf("m.ply", {{whole.substr(0, size), "3 *"}});
   }
 }

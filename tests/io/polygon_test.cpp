@@ -123,7 +123,7 @@ TEST(Polygon, ManyCornersOnACircle) {
 }
 
 TEST(Polygon, WhatHasNoOutlineBecomesAFan) {
-  const Vec3d nan(std::nan(""));
+  const Vec3d nan(NAN);
   for (const std::vector<Vec3d>& p :
        {std::vector<Vec3d>(5, {1, 1, 1}), std::vector<Vec3d>(5, nan),
         // Five corners on a line have no area.

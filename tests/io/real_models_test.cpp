@@ -34,7 +34,7 @@ TEST_P(GltfData, LoadsAndAgreesWithTheReference) {
   renderReference(renderer, scene.cameras[0], b);
 
   std::size_t different = 0, lit = 0;
-  for (std::size_t i = 0; i < a.display.rgba.size(); ++i) {
+  for (const auto i : indices(a.display.rgba)) {
     different += std::abs(a.display.rgba[i] - b.display.rgba[i]) > 1;
     lit += i % 4 != 3 && a.display.rgba[i] > 20;
   }
@@ -87,7 +87,7 @@ TEST(Sponza, LoadsCompletelyForAnyNumberOfThreads) {
   options.threads = 1;
   const SceneDescription alone = loadScene(model.string(), options, warnings);
   ASSERT_EQ(alone.textures.size(), scene.textures.size());
-  for (std::size_t i = 0; i < alone.textures.size(); ++i) {
+  for (const auto i : indices(alone.textures)) {
     EXPECT_EQ(alone.textures[i].name, scene.textures[i].name);
     EXPECT_EQ(alone.textures[i].texels, scene.textures[i].texels);
   }

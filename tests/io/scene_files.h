@@ -255,9 +255,9 @@ inline Vec3d cornerOf(const SceneDescription& scene, std::size_t corner, std::si
 // Positions and matrices are floats of about 1, as exact as this.
 inline constexpr double kPoseRounding = 1e-6;
 
-inline void expectNearInFloat(const Vec3d& got, const Vec3d& wanted,
-                              double tolerance = kPoseRounding) {
-  expectNear(got, wanted, tolerance);
+template <typename Vector>
+void expectNearInFloat(const Vector& got, const Vec3d& wanted, double tolerance = kPoseRounding) {
+  expectNear(Vec3d(got), wanted, tolerance);
 }
 
 // Returns the texture of a map of a material.

@@ -54,7 +54,7 @@ TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
 
   constexpr float kUlpsOfOne = 3e-7f;  // an object that is instanced is normalized once more
   float shortest = 1;
-  for (std::size_t i = 0; i < once.normals.size(); ++i) {
+  for (const auto i : indices(once.normals)) {
     const float* n = once.normals[i].normal;
     for (int k = 0; k < 9; ++k) ASSERT_NEAR(n[k], twice.normals[i].normal[k], kUlpsOfOne) << i;
     shortest = std::min(shortest, length(Vec3f{n[0], n[1], n[2]}));
@@ -96,7 +96,7 @@ TEST_F(SceneItems, GroupsAndRepeats) {
   ASSERT_EQ(scene.instances.size(), 6u);
 
   // The step is in the parent's space and is therefore not scaled.
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (const auto i : indices(6)) {
     expectNear(cornerOf(scene, 0, i),
                {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
   }

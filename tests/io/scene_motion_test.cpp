@@ -122,10 +122,10 @@ TEST_F(SceneMotionFile, CamerasAndLightsAreCarried) {
       "[0, 1, 0]}, {'time': 2, 'translate': [0, 3, 0], 'rotate': [0, 0, 1, 90]}]}}]";
 
   const Scene later = bake(at(2, moving));
-  expectNearInFloat(Vec3d(later.cameras.at(0).eye), {0, 0, -4});
-  expectNearInFloat(Vec3d(later.cameras.at(0).at), {});
-  expectNearInFloat(Vec3d(later.lights.at(0).position), {0, 4, 0});
-  expectNearInFloat(Vec3d(later.lights.at(0).direction), {0, 1, 0});
+  expectNearInFloat(later.cameras.at(0).eye, {0, 0, -4});
+  expectNearInFloat(later.cameras.at(0).at, {});
+  expectNearInFloat(later.lights.at(0).position, {0, 4, 0});
+  expectNearInFloat(later.lights.at(0).direction, {0, 1, 0});
 
   options_.instant = {};
   EXPECT_EQ(loadMembers(moving).lights.at(0).position, (Vec3f{1, 1, 0}));

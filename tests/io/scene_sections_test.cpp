@@ -300,7 +300,7 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
   };
 
   ASSERT_EQ(scene.materials.size(), std::size(expected));
-  for (std::size_t i = 0; i < std::size(expected); ++i) {
+  for (const auto i : indices(expected)) {
     SCOPED_TRACE(scene.materials[i].name);
     expectExactly(scene.materials[i], expected[i]);
   }

@@ -35,7 +35,7 @@ void expectRound(const Mesh& mesh) {
   for (const auto& t : mesh.triangles) {
     const auto at = [&](std::size_t i) { return Vec3d(mesh.positions[t[i]]); };
     const bool isEnd = at(0).y == at(1).y && at(0).y == at(2).y;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto i : indices(3)) {
       const Vec3d expected = isEnd ? Vec3d{0, at(i).y, 0} : Vec3d{at(i).x, 0, at(i).z};
       EXPECT_LT(length(Vec3d(mesh.normals[t[i]]) - expected), kBound);
     }
@@ -75,7 +75,7 @@ TEST_F(SmoothNormals, LookBeyondSharedVertices) {
   MemoryBudget budget(1 << 20);
   smoothNormals(mesh, "test", budget);
   ASSERT_EQ(mesh.normals.size(), 48u);
-  for (std::size_t i = 0; i < 48; ++i) {
+  for (const auto i : indices(48)) {
     const Vec3f& p = mesh.positions[i];
     EXPECT_LT(length(mesh.normals[i] - Vec3f{p.x, 0, p.z}), 1e-6f);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,8 @@
 
 namespace whit {
 namespace {
+
+using Texts = std::vector<std::string>;
 
 // Gives every parameter its default, and records the parameters that were queried.
 class RecordingParameters : public ShapeParameters {
@@ -39,7 +40,7 @@ class RecordingParameters : public ShapeParameters {
     return v;
   }
   std::string word(const std::string& key, const std::string& fallback,
-                   const std::vector<std::string>& choices) override {
+                   const Texts& choices) override {
     EXPECT_TRUE(contains(choices, fallback)) << key;
     std::string others;
     for (const std::string& choice : choices) {
@@ -51,23 +52,18 @@ class RecordingParameters : public ShapeParameters {
 
   // Lists the parameters as a row of the table does, in the order in which this compiler evaluates
   // arguments.
-  const std::vector<std::string>& listed() const { return listed_; }
+  const Texts& listed() const { return listed_; }
 
  private:
-  static std::string text(double value) {
-    std::ostringstream out;
-    out.precision(6);
-    out << value;
-    return out.str();
-  }
+  static std::string text(double value) { return formatted("%g", value); }
   void note(const std::string& key, const std::string& fallback) {
     listed_.push_back("`" + key + "` " + fallback);
   }
 
-  std::vector<std::string> listed_;
+  Texts listed_;
 };
 
-std::vector<std::string> lines() { return split(sourceText("scenes/README.md"), '\n'); }
+Texts lines() { return split(sourceText("scenes/README.md"), '\n'); }
 
 // Returns the table's row of a shape or pattern, or an empty string.
 std::string rowOf(const std::string& name) {
@@ -77,19 +73,19 @@ std::string rowOf(const std::string& name) {
   return {};
 }
 
-void noteSlots(const Shape& shape, std::vector<std::string>& items) {
+void noteSlots(const Shape& shape, Texts& items) {
   for (const ShapePart& part : shape.parts) {
     if (part.slot != "surface") items.push_back("`" + part.slot + "`");
   }
 }
-void noteSlots(const Texture&, std::vector<std::string>&) {}
+void noteSlots(const Texture&, Texts&) {}
 
 template <typename Generators>
 void expectDocumented(const Generators& generators) {
   for (const auto& [name, generate] : generators) {
     RecordingParameters parameters;
     const auto made = generate(parameters);
-    std::vector<std::string> items = parameters.listed();
+    Texts items = parameters.listed();
     noteSlots(made, items);
 
     const std::string row = rowOf(name);
@@ -106,7 +102,7 @@ TEST(Documented, EveryPattern) { expectDocumented(patternGenerators()); }
 
 // The example of the page can be loaded as a scene.
 TEST(Documented, ExampleCanBeRead) {
-  const std::vector<std::string> page = lines();
+  const Texts page = lines();
   const auto begin = std::find(page.begin(), page.end(), "```json");
   const auto end = std::find(begin, page.end(), "```");
   ASSERT_NE(end, page.end());

@@ -26,12 +26,10 @@ TEST(Bake, OneUseIsBakedIntoTheWorld) {
 
 TEST(Bake, VertexColorsAreClampedAndWhiteWhereThereAreNone) {
   Mesh colored = above(square());
-  colored.colors = {{1, 0.5f, 0}, {2, -1, std::nanf("")}, {0, 0, 1}, {1, 1, 1}};
+  colored.colors = {{1, 0.5f, 0}, {2, -1, NAN}, {0, 0, 1}, {1, 1, 1}};
 
-  SceneDescription d = sceneOf(square());
-  d.objects[0].meshes.push_back(colored);
   Warnings warnings;
-  const Scene scene = finalized(d, &warnings);
+  const Scene scene = finalized(sceneOf(square(), colored), &warnings);
   ASSERT_EQ(scene.colors.size(), scene.triangles.size());
 
   for (const float channel : scene.colors[0].color) EXPECT_EQ(channel, 1);
@@ -46,12 +44,11 @@ TEST(Bake, VertexColorsAreClampedAndWhiteWhereThereAreNone) {
 
 // Whole repeats are subtracted from each set of coordinates on its own.
 TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = sceneOf(square(), above(square()));
   d.textures.push_back(whiteTexture(TexelFormat::color));
   d.materials[0].emissionMap = 0;
-  d.objects[0].meshes[0].secondUvs = {{20, 0}, {20.5f, 0}, {20, 20}, {std::nanf(""), 1}};
+  d.objects[0].meshes[0].secondUvs = {{20, 0}, {20.5f, 0}, {20, 20}, {NAN, 1}};
 
-  d.objects[0].meshes.push_back(above(square()));
   Warnings warnings;
   const Scene scene = finalized(d, &warnings);
 
@@ -66,8 +63,7 @@ TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
 }
 
 TEST(Bake, RecordsAgreeWithTheGeometry) {
-  SceneDescription d = sceneOf(square());
-  d.objects[0].meshes.push_back(square());
+  SceneDescription d = sceneOf(square(), square());
   d.objects.push_back({"twice", {square()}});
   d.instances.push_back({1, {}});
   d.instances.push_back({1, Affine::translation({0, 0, 4})});

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 
 #include "pi.h"
 #include "rounding.h"
@@ -28,7 +28,7 @@ TEST(CameraFrame, VerticalFovStaysWithinItsLimits) {
   // Pairs of the fov that is asked for and the one that is seen.
   for (const auto& [fov, seen] : {std::pair{0.0f, 1e-3},
                                   {-20.0f, 1e-3},
-                                  {std::nanf(""), 1e-3},
+                                  {NAN, 1e-3},
                                   {1e-3f, double{1e-3f}},
                                   {0.1f, double{0.1f}},
                                   {45.0f, 45.0},
@@ -90,12 +90,12 @@ TEST(CameraFrame, UpAlongTheViewPicksAnother) {
 }
 
 TEST(CameraFrame, SenselessCamerasStillGiveAPicture) {
-  const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
   const Camera without{.eye = {1, 2, 3}, .at = {1, 2, 3}};
   expectNear(makeCameraFrame(without, 30, 20).forward, {0, 0, -1}, kFewRoundings);
-  for (const Camera& camera : {without, Camera{.up = {0, 0, 0}},
-                               Camera{.eye = {nan, 1, 2}, .at = {0, inf, 0}, .up = {nan, 0, 0}},
-                               Camera{.eye = Vec3f(-3e38f), .at = Vec3f(3e38f)}}) {
+  for (const Camera& camera :
+       {without, Camera{.up = {0, 0, 0}},
+        Camera{.eye = {NAN, 1, 2}, .at = {0, INFINITY, 0}, .up = {NAN, 0, 0}},
+        Camera{.eye = Vec3f(-3e38f), .at = Vec3f(3e38f)}}) {
     expectSound(makeCameraFrame(camera, 30, 20));
   }
 }
@@ -130,8 +130,7 @@ std::vector<Keyframe> pathOf(const std::vector<std::pair<float, float>>& timeAnd
 
 TEST(CameraPath, PassesThroughItsKeyframesAndStopsAtItsEnds) {
   const auto path = pathOf({{1, 0}, {2, 5}, {4, 3}});
-  const double nan = std::nan("");
-  for (const auto& [time, x] : {std::pair{0.0, 0}, {1, 0}, {2, 5}, {4, 3}, {1e30, 3}, {nan, 0}}) {
+  for (const auto& [time, x] : {std::pair{0.0, 0}, {1, 0}, {2, 5}, {4, 3}, {1e30, 3}, {NAN, 0}}) {
     EXPECT_EQ(cameraAt(path, time).eye.x, x) << time;
   }
   EXPECT_EQ(cameraAt(pathOf({{3, 7}}), 5).eye.x, 7);

@@ -14,6 +14,8 @@
 namespace whit {
 namespace {
 
+using Meshes = std::vector<Mesh>;
+
 using test::finalized;
 
 constexpr int kThreads = 2;
@@ -38,7 +40,7 @@ Mesh tile(double x, double y, double width, double depth, double height = 0) {
   return rectangle({x, y, height}, {width, 0, 0}, {0, depth, 0});
 }
 
-std::vector<Mesh> box(const Vec3d& corner, const Vec3d& size) {
+Meshes box(const Vec3d& corner, const Vec3d& size) {
   const Vec3d x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
   return {rectangle(corner, x, y),     rectangle(corner, y, z),     rectangle(corner, z, x),
           rectangle(corner + z, x, y), rectangle(corner + x, y, z), rectangle(corner + y, z, x)};
@@ -48,7 +50,7 @@ std::vector<Mesh> box(const Vec3d& corner, const Vec3d& size) {
 // duplicate of the same material would be dropped.
 class Builder {
  public:
-  void add(const std::vector<Mesh>& meshes, const std::vector<Affine>& places = {Affine{}}) {
+  void add(const Meshes& meshes, const std::vector<Affine>& places = {Affine{}}) {
     const auto object = size32(description_.objects);
     description_.objects.push_back({"object", meshes});
     for (Mesh& mesh : description_.objects.back().meshes) {
@@ -230,9 +232,9 @@ void expectCoplanar(const Builder& builder, std::size_t coplanar) {
 }
 
 // Returns the scene of objects without instances.
-Builder world(const std::vector<std::vector<Mesh>>& objects) {
+Builder world(const std::vector<Meshes>& objects) {
   Builder builder;
-  for (const std::vector<Mesh>& meshes : objects) builder.add(meshes);
+  for (const Meshes& meshes : objects) builder.add(meshes);
   return builder;
 }
 
@@ -256,9 +258,9 @@ TEST(CoplanarTriangles, ADecalInAFloor) {
 }
 
 TEST(CoplanarTriangles, OverlapInOnePlane) {
-  std::vector<Mesh> tiles;
+  Meshes tiles;
   for (int i = 0; i < 36; ++i) tiles.push_back(tile(i % 6, i / 6, 1, 1));
-  const std::vector<Mesh> decal{tile(2.25, 2.25, 0.5, 0.5)};
+  const Meshes decal{tile(2.25, 2.25, 0.5, 0.5)};
 
   expectCoplanar(kDecalInAFloor, 4);
   expectCoplanar(world({box({0, 0, 0}, {1, 1, 1}), box({1, 0.25, 0.25}, {1, 0.5, 0.5})}), 4);
@@ -334,7 +336,7 @@ TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
   std::size_t coplanar = 0;
   for (int round = 0; round < 12; ++round) {
     Builder builder;
-    std::vector<Mesh> world;
+    Meshes world;
     for (int i = 0; i < 20 * (1 + round % 4); ++i) world.push_back(randomRectangle(random));
 
     builder.add(world);
@@ -350,13 +352,13 @@ TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
   EXPECT_GT(coplanar, 500u);
 }
 
-double randomBelow(std::mt19937& random, double most) {
-  return most * 0x1p-32 * static_cast<double>(random());
+auto randomBelow(std::mt19937& random) {
+  return [&random](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
 }
 
 // Returns a triangle in one of two floors; one in three is a needle.
 Mesh randomTriangle(std::mt19937& random) {
-  const auto below = [&](double most) { return randomBelow(random, most); };
+  const auto below = randomBelow(random);
   const double x = below(5), y = below(5), width = 0.5 + below(2);
   const double depth = random() % 3 == 0 ? 0.01 : 0.5 + below(2);
   Mesh mesh = tile(x, y, width, depth, static_cast<double>(random() % 2));
@@ -374,7 +376,7 @@ TEST(CoplanarTriangles, TurnedAndShearedInstancesAreAsDefined) {
   std::size_t coplanar = 0;
   // Trees have nodes of eight, so the numbers of triangles are about its powers.
   for (const int count : {1, 3, 7, 8, 9, 63, 65}) {
-    std::vector<Mesh> object;
+    Meshes object;
     for (int i = 0; i < count; ++i) object.push_back(randomTriangle(random));
 
     Builder builder;
@@ -388,7 +390,7 @@ TEST(CoplanarTriangles, TurnedAndShearedInstancesAreAsDefined) {
 // Returns a triangle that is 2 to 4 long and as thin as is told, in any direction of a floor; its
 // tip lies anywhere along it.
 Mesh needle(std::mt19937& random, double width) {
-  const auto below = [&](double most) { return randomBelow(random, most); };
+  const auto below = randomBelow(random);
   const double angle = below(2 * kPi);
   const Vec3d along{std::cos(angle), std::sin(angle), 0}, across{-along.y, along.x, 0};
   const Vec3d tip = along * below(2) + across * width;
@@ -404,7 +406,7 @@ TEST(CoplanarTriangles, RotatedAndShearedNeedlesAreAsDefined) {
   std::mt19937 random(19);
   std::size_t coplanar = 0;
   for (const double width : {0.1, 1e-2, 1e-3, 1e-4}) {
-    std::vector<Mesh> world{tile(1, 1, 1, 1)}, object;
+    Meshes world{tile(1, 1, 1, 1)}, object;
     for (int i = 0; i < 40; ++i) world.push_back(needle(random, width));
     for (int i = 0; i < 10; ++i) object.push_back(needle(random, width));
 

@@ -12,6 +12,8 @@
 namespace whit {
 namespace {
 
+using Counts = std::vector<std::uint64_t>;
+
 constexpr PerfEvent kPageFaults{"faults", PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS};
 constexpr std::size_t kPage = 4096;
 
@@ -58,7 +60,7 @@ TEST(EventCounters, SayWhyTheyDoNotCount) {
 }
 
 // A pipe that holds these numbers in place of a counter, and ends after them.
-int counterOf(const std::vector<std::uint64_t>& numbers) {
+int counterOf(const Counts& numbers) {
   int ends[2] = {-1, -1};
   EXPECT_EQ(pipe(ends), 0);
   const std::size_t size = numbers.size() * sizeof(std::uint64_t);
@@ -67,21 +69,24 @@ int counterOf(const std::vector<std::uint64_t>& numbers) {
   return ends[0];
 }
 
+// Reads a counter that has counted 7 events all the time, and another one.
+std::vector<double> readBesideSeven(const Counts& other) {
+  const std::vector<int> files{counterOf({7, 1000, 1000}), counterOf(other)};
+  const std::vector<double> read = readCounters(files);
+  for (const int file : files) close(file);
+  return read;
+}
+
 // perf_event_open(2): the count, then the time enabled, then the time running.
 TEST(EventCounters, ReadWhatTheKernelWrites) {
-  const std::vector<int> files{counterOf({7, 1000, 1000}), counterOf({1u << 20, 5, 5})};
-  EXPECT_EQ(readCounters(files), (std::vector<double>{7, 1 << 20}));
-  for (const int file : files) close(file);
+  EXPECT_EQ(readBesideSeven({1u << 20, 5, 5}), (std::vector<double>{7, 1 << 20}));
 }
 
 // An event that shared the processor's counters with others was not counted all the time, and a
 // counter in error state is at its end.
 TEST(EventCounters, AreEmptyWhereOneDidNotCount) {
-  for (const std::vector<std::uint64_t>& second :
-       {std::vector<std::uint64_t>{7, 1000, 999}, {7, 1000}, {}}) {
-    const std::vector<int> files{counterOf({7, 1000, 1000}), counterOf(second)};
-    EXPECT_TRUE(readCounters(files).empty()) << second.size();
-    for (const int file : files) close(file);
+  for (const Counts& second : {Counts{7, 1000, 999}, {7, 1000}, {}}) {
+    EXPECT_TRUE(readBesideSeven(second).empty()) << second.size();
   }
 }
 

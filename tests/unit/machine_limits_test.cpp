@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
+#include <cmath>
 #include <fstream>
-#include <limits>
 
 #include "temporary_folder.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = INFINITY;
 
 class ControlGroups : public testing::Test {
  protected:

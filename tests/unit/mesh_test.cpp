@@ -16,7 +16,7 @@ TEST(TransformMesh, NormalsBecomeUnitVectorsOrZero) {
   EXPECT_FLOAT_EQ(mesh.normals[1].z, 0.8f);
   EXPECT_EQ(mesh.normals[2], Vec3f{});
 
-  mesh.normals[0] = {0, std::nanf(""), 1};
+  mesh.normals[0] = {0, NAN, 1};
   transform(mesh, Affine::scaling(Vec3d(1e-100)));  // cofactors of 1e-200
   EXPECT_EQ(mesh.normals[0], Vec3f{});
   EXPECT_FLOAT_EQ(mesh.normals[1].y, 0.6f);

@@ -10,13 +10,15 @@
 namespace whit::test {
 namespace {
 
+using Texels = std::vector<std::uint32_t>;
+
 using verify::makeTexture;
 
 std::uint32_t gray(std::uint32_t code) { return code | code << 10 | code << 20; }
 
 Texture noise(TexelFormat format, int width, int height) {
   verify::Numbers numbers(7);
-  std::vector<std::uint32_t> texels;
+  Texels texels;
   for (int i = 0; i < width * height; ++i) {
     texels.push_back(static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
   }
@@ -64,14 +66,14 @@ TEST(Halved, OddSizesCutThroughTexels) {
   const Texture half = halved(makeTexture(TexelFormat::data, 5, 1, {100, 50, 20, 70, 90}));
   EXPECT_EQ(half.width, 2);
   EXPECT_EQ(half.height, 1);
-  EXPECT_EQ(half.texels, (std::vector<std::uint32_t>{64, 68}));  // 160 / 2.5, 170 / 2.5
+  EXPECT_EQ(half.texels, (Texels{64, 68}));  // 160 / 2.5, 170 / 2.5
 }
 
 TEST(Halved, EqualTexelsStayWhatTheyAre) {
   for (const auto& [width, height] : {std::pair(8, 8), {7, 3}, {1, 6}, {5, 1}}) {
     for (const std::uint32_t texel : {0u, gray(1), gray(511), gray(1023), 0x2a5c3f17u}) {
       for (const TexelFormat format : {TexelFormat::color, TexelFormat::data}) {
-        const std::vector<std::uint32_t> texels(width * height, texel);
+        const Texels texels(width * height, texel);
         for (const std::uint32_t got : halved(makeTexture(format, width, height, texels)).texels) {
           EXPECT_EQ(got, texel);
         }
@@ -123,7 +125,7 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
 // on either side, where the mean coverage is a quarter of the leaf's. The leaf covers 2 x 200 of
 // the 3 texels that are not empty.
 TEST(MipMaps, CoverageIsTheMeanOfWhatIsLeft) {
-  std::vector<std::uint32_t> masks;
+  Texels masks;
   for (int i = 0; i < 16; ++i) masks.push_back(i % 4 < 2 ? 200 : 0);
   const std::vector<Texture> textures{makeTexture(TexelFormat::data, 4, 4, masks)};
   const ShownMap coverage{0, 0, 1.0f / 1024};

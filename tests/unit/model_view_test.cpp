@@ -97,10 +97,9 @@ TEST(ModelViews, AClosedRoomIsSeenFromInside) {
 
 // The eye avoids furniture.
 TEST(ModelViews, ARoomMayBeFurnished) {
-  SceneDescription scene = sceneOf(box({4, 2, 4}, true));
-  scene.objects[0].meshes.push_back(box({0.5f, 2, 0.5f}));
-  for (Vec3f& p : scene.objects[0].meshes[1].positions) p += Vec3f(3.4f, 0, 3.4f);
-  const ModelView view = viewOf(scene);
+  Mesh cupboard = box({0.5f, 2, 0.5f});
+  for (Vec3f& p : cupboard.positions) p += Vec3f(3.4f, 0, 3.4f);
+  const ModelView view = viewOf(sceneOf(box({4, 2, 4}, true), cupboard));
   EXPECT_TRUE(view.inside);
   EXPECT_LT(view.camera.eye.x, 2.9f);
 }
@@ -129,7 +128,7 @@ SceneDescription invertedBall(double normals) {
     if (normals != 0) mesh.normals.emplace_back(point * normals);
   }
 
-  return sceneOf(std::move(mesh));
+  return sceneOf(mesh);
 }
 
 TEST(ModelViews, ABodyThatIsWoundInwardsIsNoRoom) {
@@ -273,7 +272,7 @@ TEST(ModelViews, NothingToSeeIsNoView) {
   EXPECT_EQ(viewOf(SceneDescription()).radius, 0);
   SceneDescription broken = sceneOf(square());
   broken.objects[0].meshes[0].triangles = {{0, 1, 7}, {0, 0, 0}};
-  broken.objects[0].meshes[0].positions[1].x = std::nanf("");
+  broken.objects[0].meshes[0].positions[1].x = NAN;
   EXPECT_EQ(viewOf(broken).radius, 0);
 }
 

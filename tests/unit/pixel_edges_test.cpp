@@ -9,6 +9,8 @@
 namespace whit::test {
 namespace {
 
+using Marks = std::vector<std::uint8_t>;
+
 constexpr double kDegree = kPi / 180;
 
 PixelSurface pointOnFloor(float x, float z) { return {1, 7, {x, 0, z}, {0, 1, 0}}; }
@@ -60,8 +62,8 @@ struct Frame {
     }
   }
 
-  std::vector<std::uint8_t> edges(int contrast = 8) const {
-    std::vector<std::uint8_t> found(surfaces.size(), 2);
+  Marks edges(int contrast = 8) const {
+    Marks found(surfaces.size(), 2);
     findEdges(display, surfaces, contrast, 0, display.height, found);
     return found;
   }
@@ -78,7 +80,7 @@ TEST(FindEdges, MarkBothSides) {
     bySurface.surfaces[7 * cy + cx].material = 3;
     byContrast.display.rgba[4 * (7 * cy + cx) + 1] = 109;
 
-    std::vector<std::uint8_t> expected;
+    Marks expected;
     for (int i = 0; i < 7 * 5; ++i) {
       expected.push_back(std::abs(i % 7 - cx) <= 1 && std::abs(i / 7 - cy) <= 1);
     }
@@ -90,13 +92,13 @@ TEST(FindEdges, MarkBothSides) {
 TEST(FindEdges, ContrastMustExceedTheThreshold) {
   Frame frame(3, 1);
   frame.display.rgba[4] = 108;
-  EXPECT_EQ(frame.edges(8), (std::vector<std::uint8_t>{0, 0, 0}));
-  EXPECT_EQ(frame.edges(7), (std::vector<std::uint8_t>{1, 1, 1}));
+  EXPECT_EQ(frame.edges(8), (Marks{0, 0, 0}));
+  EXPECT_EQ(frame.edges(7), (Marks{1, 1, 1}));
 
   // Opacity does not count as contrast.
   frame.display.rgba[4] = 100;
   frame.display.rgba[7] = 0;
-  EXPECT_EQ(frame.edges(0), (std::vector<std::uint8_t>{0, 0, 0}));
+  EXPECT_EQ(frame.edges(0), (Marks{0, 0, 0}));
 }
 
 TEST(Grown, StaysInsideTheImage) {

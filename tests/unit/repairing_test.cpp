@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "unit/scene_builder.h"
@@ -102,8 +101,7 @@ TEST(Repairing, MaskedTrianglesInEachOthersPlaceAreDroppedIfTheirHolesAreInOnePl
 
 // H27: a bad vertex drops only its triangles.
 TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
-  const float inf = std::numeric_limits<float>::infinity();
-  for (const float bad : {std::nanf(""), inf, -inf, 1e19f, -1e19f}) {
+  for (const float bad : {NAN, INFINITY, -INFINITY, 1e19f, -1e19f}) {
     Mesh mesh = square();
     mesh.positions[3].y = bad;  // of the second triangle only
 
@@ -124,17 +122,16 @@ TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
   Mesh mesh = square();
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({0xffffffffu, 1, 2});
-  SceneDescription d = sceneOf(mesh);
-  d.objects[0].meshes.push_back(above(square()));  // its vertices must not be reached
 
+  // The vertices of the other mesh must not be reached.
   Warnings warnings;
-  EXPECT_EQ(finalized(d, &warnings).triangles.size(), 4u);
+  EXPECT_EQ(finalized(sceneOf(mesh, above(square())), &warnings).triangles.size(), 4u);
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
 }
 
 TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
   Mesh mesh = square();
-  mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
+  mesh.uvs = {{0.25f, NAN}, {1, 0}, {1, 1}, {-INFINITY, 1}};
 
   Warnings warnings;
   const Scene scene = finalized(mesh, &warnings);
@@ -175,7 +172,7 @@ TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
 // H34: unusable normals are replaced by the face's.
 TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();
-  mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
+  mesh.normals = {{0, 0, 0}, {0, 3, 4}, {NAN, 0, 1}, {0, 0, -1}};
   Warnings warnings;
   const Scene scene = finalized(mesh, &warnings);
 
@@ -196,10 +193,8 @@ TEST(Repairing, FlatNormalsAreNotKept) {
 TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
   Mesh smooth = above(square());
   smooth.normals.assign(4, {1, 0, 1});
-  SceneDescription d = sceneOf(square());
-  d.objects[0].meshes.push_back(smooth);
 
-  const Scene scene = finalized(d);
+  const Scene scene = finalized(sceneOf(square(), smooth));
   ASSERT_EQ(scene.normals.size(), 4u);
   EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0, 1}));
   EXPECT_FLOAT_EQ(normalOf(scene.normals[2], 1).x, std::sqrt(0.5f));

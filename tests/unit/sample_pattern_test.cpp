@@ -11,9 +11,11 @@
 namespace whit::test {
 namespace {
 
+using Samples = std::vector<Vec2f>;
+
 // Returns the largest difference between the share of samples in a box [0, x) x [0, y) and its
 // area: the star discrepancy, found at the corners that the samples span (Niederreiter 1992).
-double starDiscrepancy(const std::vector<Vec2f>& samples) {
+double starDiscrepancy(const Samples& samples) {
   std::vector<double> xs{1}, ys{1};
   for (const Vec2f& s : samples) {
     xs.push_back(s.x);
@@ -36,8 +38,8 @@ double starDiscrepancy(const std::vector<Vec2f>& samples) {
   return worst;
 }
 
-std::vector<Vec2f> grid(int side) {
-  std::vector<Vec2f> samples;
+Samples grid(int side) {
+  Samples samples;
   for (int i = 0; i < side * side; ++i) {
     const auto middle = [&](int cell) { return static_cast<float>((cell + 0.5) / side); };
     samples.push_back({middle(i % side), middle(i / side)});
@@ -53,7 +55,7 @@ TEST(SamplePattern, BeatsTheRegularGrid) {
 
 // Returns the root mean square error of a pixel's coverage by straight edges at all places. The
 // normals of the edges turn from `from` to `to` degrees.
-double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
+double edgeError(const Samples& samples, int from, int to) {
   constexpr int kFine = 64, kPlaces = 25;
   double sum = 0;
   int edges = 0;
@@ -92,7 +94,7 @@ double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
 // depends on the number of samples.
 TEST(SamplePattern, RendersNearlyLevelEdgesBetterThanTheRegularGrid) {
   for (const int side : {2, 4, 5}) {
-    const std::vector<Vec2f> ours = samplePattern(side * side), regular = grid(side);
+    const Samples ours = samplePattern(side * side), regular = grid(side);
     EXPECT_LT(edgeError(ours, 80, 100), edgeError(regular, 80, 100)) << side;
     EXPECT_LT(edgeError(ours, 0, 180), 1.2 * edgeError(regular, 0, 180)) << side;
   }
@@ -116,8 +118,8 @@ TEST(SamplePattern, NoTwoSamplesShareARowOrAColumn) {
 // The probe samples stand for the whole pixel: there is one in each quarter across and down.
 TEST(SamplePattern, ProbeSamplesAreSpread) {
   for (const int n : {8, 16, 64, 256}) {
-    const std::vector<Vec2f> samples = samplePattern(n);
-    const std::vector<Vec2f> probe(samples.begin(), samples.begin() + kProbeSamples);
+    const Samples samples = samplePattern(n);
+    const Samples probe(samples.begin(), samples.begin() + kProbeSamples);
     EXPECT_LT(starDiscrepancy(probe), starDiscrepancy(grid(2))) << n;
   }
 }
@@ -127,7 +129,7 @@ TEST(SamplePattern, ProbeSamplesAreSpread) {
 // near to it as the pattern allows. (The four samples nearest to the center were up to 0.14 off,
 // which shifted the picture of pixels without further samples.)
 // Returns how far the mean place of the first samples lies from the center.
-double asideOfFirst(int count, const std::vector<Vec2f>& samples) {
+double asideOfFirst(int count, const Samples& samples) {
   double x = 0, y = 0;
   for (int i = 0; i < count; ++i) {
     x += samples[i].x - 0.5;
@@ -138,7 +140,7 @@ double asideOfFirst(int count, const std::vector<Vec2f>& samples) {
 
 TEST(SamplePattern, SamplesAreCentered) {
   for (const int n : {1, 2, 4, 5, 7, 8, 9, 12, 16, 24, 25, 32, 64, 256}) {
-    const std::vector<Vec2f> samples = samplePattern(n);
+    const Samples samples = samplePattern(n);
     ASSERT_EQ(std::ssize(samples), n);
     EXPECT_NEAR(asideOfFirst(n, samples), 0, n == 1 ? 0 : 1e-6) << n;
     if (n <= kProbeSamples) continue;
@@ -150,7 +152,7 @@ TEST(SamplePattern, SamplesAreCentered) {
 // while more are added. In the order of columns, half of the samples would be off by 0.25.
 TEST(SamplePattern, TheFirstSamplesStandForThePixel) {
   for (const int n : {16, 64, 256}) {
-    const std::vector<Vec2f> samples = samplePattern(n);
+    const Samples samples = samplePattern(n);
     for (int count = kProbeSamples; count <= n; ++count) {
       EXPECT_LT(asideOfFirst(count, samples), 2 * count < n ? 0.1 : 0.04) << count << " of " << n;
     }

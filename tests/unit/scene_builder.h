@@ -24,20 +24,21 @@ inline Mesh square() {
   return mesh;
 }
 
-// Returns a scene whose only object, used once, is `mesh` with a plain gray material.
-inline SceneDescription sceneOf(Mesh mesh) {
+// Returns a scene whose only object, used once, has these meshes with a plain gray material.
+template <typename... Meshes>
+SceneDescription sceneOf(const Meshes&... meshes) {
   SceneDescription d;
   d.name = "test";
   d.materials.resize(1);
   d.materials[0].name = "gray";
-  d.objects.push_back({"object", {std::move(mesh)}});
+  d.objects.push_back({"object", {meshes...}});
   d.instances.push_back({0, Affine{}});
   return d;
 }
 
 // Returns a scene like sceneOf() that is placed by this transform.
-inline SceneDescription placedAs(Mesh mesh, const Affine& toWorld) {
-  SceneDescription d = sceneOf(std::move(mesh));
+inline SceneDescription placedAs(const Mesh& mesh, const Affine& toWorld) {
+  SceneDescription d = sceneOf(mesh);
   d.instances[0].toWorld = toWorld;
   return d;
 }
@@ -54,8 +55,8 @@ inline Scene finalized(SceneDescription d, Warnings* warnings = nullptr) {
   return Scene::finalize(std::move(d), warnings ? *warnings : own);
 }
 
-inline Scene finalized(Mesh mesh, Warnings* warnings = nullptr) {
-  return finalized(sceneOf(std::move(mesh)), warnings);
+inline Scene finalized(const Mesh& mesh, Warnings* warnings = nullptr) {
+  return finalized(sceneOf(mesh), warnings);
 }
 
 inline Texture whiteTexture(TexelFormat format) {

@@ -41,146 +41,142 @@ struct Rule {
   std::vector<Effect> also = {};  // what comes with it
 };
 
-const std::vector<Rule>& rules() {
-  static const std::vector<Rule> all{
-      {Effect::textures, [](auto& d, auto& m) { m.diffuseMap = addTexture(d, TexelFormat::color); },
-       "1 material with a color texture, 2 triangles use it"},
-      {Effect::normalMaps, [](auto& d, auto& m) { m.normalMap = addTexture(d, TexelFormat::data); },
-       "1 material with a normal map, 2 triangles use it"},
-      {Effect::alphaMasks, [](auto& d, auto& m) { m.alphaMap = addTexture(d, TexelFormat::data); },
-       "1 material with an alpha mask, 2 triangles use it"},
-      {Effect::coverage,
-       [](auto&, auto& m) { m.coverage = 0.5f; },
-       "1 material whose coverage is not 1, 2 triangles use it",
-       {Effect::transmission}},
-      {Effect::smoothNormals,
-       [](auto& d, auto&) {
-         d.objects[0].meshes[0].normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1e-3f, 1}};
-       },
-       "some vertex normals differ from their triangle's"},
-      {Effect::glossy,
-       [](auto&, auto& m) {
-         m.specular = Rgb(0.04f);
-         m.glossyReflection = false;
-       },
-       "1 material with a glossy lobe, 2 triangles use it"},
-      {Effect::glossyReflection,
-       [](auto&, auto& m) { m.specular = Rgb(0.04f); },
-       "1 material whose glossy lobe reflects the scene, 2 triangles use it",
-       {Effect::glossy}},
-      {Effect::blurredSky,
-       [](auto& d, auto& m) {
-         m.specular = Rgb(0.04f);
-         useSky(d, Sky::Kind::color);
-       },
-       "a glossy lobe reflects the sky",
-       {Effect::glossy, Effect::glossyReflection, Effect::sky}},
-      {Effect::indirect, [](auto&, auto& m) { m.diffuseReflection = true; },
-       "1 material whose diffuse color reflects the scene, 2 triangles use it"},
-      {Effect::emission,
-       [](auto&, auto& m) {
-         m.emission = {0, 0, 1};
-       },
-       "1 material with emission, 2 triangles use it"},
-      {Effect::emissionMaps,
-       [](auto& d, auto& m) {
-         m.emission = {0, 0, 1};
-         m.emissionMap = addTexture(d, TexelFormat::color);
-       },
-       "1 material with a texture of emission, 2 triangles use it",
-       {Effect::emission, Effect::textures}},
-      {Effect::vertexColors,
-       [](auto& d, auto&) {
-         d.objects[0].meshes[0].colors = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.5f, 1}};
-       },
-       "some vertices are not white"},
-      {Effect::spheres,
-       [](auto& d, auto&) {
-         d.objects[0].meshes[0].spheres = {Affine(), Affine::translation({3, 0, 0})};
-       },
-       "2 spheres"},
-      {Effect::sky, [](auto& d, auto&) { useSky(d, Sky::Kind::color); }, "the sky is not black"},
-      {Effect::skyImage,
-       [](auto& d, auto&) { useSky(d, Sky::Kind::image); },
-       "the sky is an image",
-       {Effect::sky}},
-      {Effect::ambient,
-       [](auto& d, auto&) {
-         d.ambient.down = {0, 1, 0};
-       },
-       "the ambient light is not black"},
-      {Effect::ambientOcclusion,
-       [](auto& d, auto&) {
-         d.ambient.up = {0, 1, 0};
-         d.ambient.occlusion = 1;
-       },
-       "the ambient light has a radius of occlusion",
-       {Effect::ambient}},
-      {Effect::lights,
-       [](auto& d, auto& m) {
-         addLight(d);
-         addLight(d);
-         addLight(d, {});
-         m.castsShadow = false;
-       },
-       "2 lights"},
-      {Effect::spotLights,
-       [](auto& d, auto& m) {
-         addLight(d).kind = Light::Kind::spot;
-         m.castsShadow = false;
-       },
-       "1 spot light",
-       {Effect::lights}},
-      {Effect::directionalLights,
-       [](auto& d, auto& m) {
-         addLight(d).kind = Light::Kind::directional;
-         m.castsShadow = false;
-       },
-       "1 directional light",
-       {Effect::lights}},
-      {Effect::shadows,
-       [](auto& d, auto&) { addLight(d).radius = kPointRadius; },
-       "1 light, 2 triangles cast shadows",
-       {Effect::lights}},
-      {Effect::softShadows,
-       [](auto& d, auto&) { addLight(d); },
-       "1 light with a radius",
-       {Effect::lights, Effect::shadows}},
-      {Effect::mirror, [](auto&, auto& m) { m.mirrorGrazing = Rgb(1.0f); },
-       "1 material with a mirror, a smooth lobe or a reflecting dielectric, 2 triangles use it"},
-      {Effect::transmission,
-       [](auto&, auto& m) {
-         m.transmission = Rgb(1.0f);
-         m.ior = 1;
-       },
-       "1 material that light passes, 2 triangles use it"},
-      {Effect::absorption,
-       [](auto&, auto& m) {
-         m.transmission = Rgb(1.0f);
-         m.absorption = {0, 1, 0};
-       },
-       "1 material with absorption, 2 triangles use it",
-       {Effect::transmission, Effect::mirror}},
-      {Effect::instances,
-       [](auto& d, auto&) {
-         d.instances.push_back({0, Affine::translation({3, 0, 0})});
-       },
-       "2 instances of 1 object"},
-      {Effect::depthOfField,
-       [](auto& d, auto&) {
-         d.cameras.resize(3);
-         d.cameras[1].aperture = 0.5f;
-       },
-       "1 camera with an aperture"},
-      {Effect::fog,
-       [](auto& d, auto&) {
-         d.fog.density = {0, 0.1f, 0};
-       },
-       "the fog has a density"},
-  };
-
-  return all;
-}
+const std::vector<Rule> kRules{
+    {Effect::textures, [](auto& d, auto& m) { m.diffuseMap = addTexture(d, TexelFormat::color); },
+     "1 material with a color texture, 2 triangles use it"},
+    {Effect::normalMaps, [](auto& d, auto& m) { m.normalMap = addTexture(d, TexelFormat::data); },
+     "1 material with a normal map, 2 triangles use it"},
+    {Effect::alphaMasks, [](auto& d, auto& m) { m.alphaMap = addTexture(d, TexelFormat::data); },
+     "1 material with an alpha mask, 2 triangles use it"},
+    {Effect::coverage,
+     [](auto&, auto& m) { m.coverage = 0.5f; },
+     "1 material whose coverage is not 1, 2 triangles use it",
+     {Effect::transmission}},
+    {Effect::smoothNormals,
+     [](auto& d, auto&) {
+       d.objects[0].meshes[0].normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1e-3f, 1}};
+     },
+     "some vertex normals differ from their triangle's"},
+    {Effect::glossy,
+     [](auto&, auto& m) {
+       m.specular = Rgb(0.04f);
+       m.glossyReflection = false;
+     },
+     "1 material with a glossy lobe, 2 triangles use it"},
+    {Effect::glossyReflection,
+     [](auto&, auto& m) { m.specular = Rgb(0.04f); },
+     "1 material whose glossy lobe reflects the scene, 2 triangles use it",
+     {Effect::glossy}},
+    {Effect::blurredSky,
+     [](auto& d, auto& m) {
+       m.specular = Rgb(0.04f);
+       useSky(d, Sky::Kind::color);
+     },
+     "a glossy lobe reflects the sky",
+     {Effect::glossy, Effect::glossyReflection, Effect::sky}},
+    {Effect::indirect, [](auto&, auto& m) { m.diffuseReflection = true; },
+     "1 material whose diffuse color reflects the scene, 2 triangles use it"},
+    {Effect::emission,
+     [](auto&, auto& m) {
+       m.emission = {0, 0, 1};
+     },
+     "1 material with emission, 2 triangles use it"},
+    {Effect::emissionMaps,
+     [](auto& d, auto& m) {
+       m.emission = {0, 0, 1};
+       m.emissionMap = addTexture(d, TexelFormat::color);
+     },
+     "1 material with a texture of emission, 2 triangles use it",
+     {Effect::emission, Effect::textures}},
+    {Effect::vertexColors,
+     [](auto& d, auto&) {
+       d.objects[0].meshes[0].colors = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.5f, 1}};
+     },
+     "some vertices are not white"},
+    {Effect::spheres,
+     [](auto& d, auto&) {
+       d.objects[0].meshes[0].spheres = {Affine(), Affine::translation({3, 0, 0})};
+     },
+     "2 spheres"},
+    {Effect::sky, [](auto& d, auto&) { useSky(d, Sky::Kind::color); }, "the sky is not black"},
+    {Effect::skyImage,
+     [](auto& d, auto&) { useSky(d, Sky::Kind::image); },
+     "the sky is an image",
+     {Effect::sky}},
+    {Effect::ambient,
+     [](auto& d, auto&) {
+       d.ambient.down = {0, 1, 0};
+     },
+     "the ambient light is not black"},
+    {Effect::ambientOcclusion,
+     [](auto& d, auto&) {
+       d.ambient.up = {0, 1, 0};
+       d.ambient.occlusion = 1;
+     },
+     "the ambient light has a radius of occlusion",
+     {Effect::ambient}},
+    {Effect::lights,
+     [](auto& d, auto& m) {
+       addLight(d);
+       addLight(d);
+       addLight(d, {});
+       m.castsShadow = false;
+     },
+     "2 lights"},
+    {Effect::spotLights,
+     [](auto& d, auto& m) {
+       addLight(d).kind = Light::Kind::spot;
+       m.castsShadow = false;
+     },
+     "1 spot light",
+     {Effect::lights}},
+    {Effect::directionalLights,
+     [](auto& d, auto& m) {
+       addLight(d).kind = Light::Kind::directional;
+       m.castsShadow = false;
+     },
+     "1 directional light",
+     {Effect::lights}},
+    {Effect::shadows,
+     [](auto& d, auto&) { addLight(d).radius = kPointRadius; },
+     "1 light, 2 triangles cast shadows",
+     {Effect::lights}},
+    {Effect::softShadows,
+     [](auto& d, auto&) { addLight(d); },
+     "1 light with a radius",
+     {Effect::lights, Effect::shadows}},
+    {Effect::mirror, [](auto&, auto& m) { m.mirrorGrazing = Rgb(1.0f); },
+     "1 material with a mirror, a smooth lobe or a reflecting dielectric, 2 triangles use it"},
+    {Effect::transmission,
+     [](auto&, auto& m) {
+       m.transmission = Rgb(1.0f);
+       m.ior = 1;
+     },
+     "1 material that light passes, 2 triangles use it"},
+    {Effect::absorption,
+     [](auto&, auto& m) {
+       m.transmission = Rgb(1.0f);
+       m.absorption = {0, 1, 0};
+     },
+     "1 material with absorption, 2 triangles use it",
+     {Effect::transmission, Effect::mirror}},
+    {Effect::instances,
+     [](auto& d, auto&) {
+       d.instances.push_back({0, Affine::translation({3, 0, 0})});
+     },
+     "2 instances of 1 object"},
+    {Effect::depthOfField,
+     [](auto& d, auto&) {
+       d.cameras.resize(3);
+       d.cameras[1].aperture = 0.5f;
+     },
+     "1 camera with an aperture"},
+    {Effect::fog,
+     [](auto& d, auto&) {
+       d.fog.density = {0, 0.1f, 0};
+     },
+     "the fog has a density"},
+};
 
 TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
   const Scene scene = finalized(plainScene());
@@ -197,8 +193,8 @@ TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
 }
 
 TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
-  EXPECT_EQ(rules().size(), static_cast<std::size_t>(kEffectCount));
-  for (const Rule& rule : rules()) {
+  EXPECT_EQ(kRules.size(), static_cast<std::size_t>(kEffectCount));
+  for (const Rule& rule : kRules) {
     SCOPED_TRACE(nameOf(rule.effect));
     SceneDescription d = plainScene();
     rule.add(d, d.materials[0]);

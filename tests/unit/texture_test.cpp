@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "core/display.h"
@@ -11,9 +10,6 @@
 
 namespace whit {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Ten bits of a square root are steps of at most 0.36 sRGB codes (where the curve's straight part
 // ends), so that the error is at most 0.18. Over the 256 codes that occur it is at most 0.157, at
@@ -45,9 +41,9 @@ TEST(ColorTexel, EveryCodeRoundTrips) {
 }
 
 TEST(Texel, OutOfRangeAndNanAreClamped) {
-  EXPECT_EQ(encodeColorTexel({kNan, -1, kInfinity}), 0x3ffu << 20);
-  EXPECT_EQ(encodeColorTexel({-kInfinity, 7, -0.0f}), 0x3ffu << 10);
-  EXPECT_EQ(encodeDataTexel(kNan, -1, kInfinity, 2), 0xffff0000u);
+  EXPECT_EQ(encodeColorTexel({NAN, -1, INFINITY}), 0x3ffu << 20);
+  EXPECT_EQ(encodeColorTexel({-INFINITY, 7, -0.0f}), 0x3ffu << 10);
+  EXPECT_EQ(encodeDataTexel(NAN, -1, INFINITY, 2), 0xffff0000u);
 }
 
 // The error is half a code, and the largest channel has a code of at least 256.
@@ -83,7 +79,7 @@ TEST(RadianceTexel, KeepsWhatNineBitsHold) {
 }
 
 TEST(RadianceTexel, OutOfRangeAndNanAreClamped) {
-  EXPECT_EQ(throughRadianceTexel({kNan, -1, kInfinity}), (Rgb{0, 0, kLargestRadianceTexel}));
+  EXPECT_EQ(throughRadianceTexel({NAN, -1, INFINITY}), (Rgb{0, 0, kLargestRadianceTexel}));
   EXPECT_EQ(throughRadianceTexel({1e30f, 65536, 0}),
             (Rgb{kLargestRadianceTexel, kLargestRadianceTexel, 0}));
 }

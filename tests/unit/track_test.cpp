@@ -11,32 +11,32 @@
 namespace whit {
 namespace {
 
+using Values = std::vector<double>;
+
 // Rounding of about ten operations on doubles of about 1.
 constexpr double kTrackRounding = 1e-14;
 
-Track trackOf(Track::Interpolation interpolation, std::vector<double> times,
-              std::vector<double> values, std::size_t components = 1) {
+Track trackOf(Track::Interpolation interpolation, Values times, Values values,
+              std::size_t components = 1) {
   return {interpolation, false, components, std::move(times), std::move(values)};
 }
 
-std::vector<double> turn(double degrees, double side = 1) {  // about z
+Values turn(double degrees, double side = 1) {  // about z
   const double half = degrees * kPi / 360;
   return {0, 0, side * std::sin(half), side * std::cos(half)};
 }
 
-Track turning(const std::vector<double>& from, const std::vector<double>& to) {
+Track turning(const Values& from, const Values& to) {
   Track track = trackOf(Track::Interpolation::linear, {0, 1}, from, 4);
   track.values.insert(track.values.end(), to.begin(), to.end());
   track.rotation = true;
   return track;
 }
 
-void expectValues(const std::vector<double>& a, const std::vector<double>& b) {
+void expectValues(const Values& a, const Values& b) {
   ASSERT_EQ(a.size(), b.size());
   for (const auto i : indices(a)) EXPECT_NEAR(a[i], b[i], kTrackRounding) << i;
 }
-
-using Values = std::vector<double>;
 
 TEST(Tracks, StandStillBeforeAndBehindTheirKeys) {
   for (const auto how : {Track::Interpolation::step, Track::Interpolation::linear}) {
@@ -49,7 +49,7 @@ TEST(Tracks, StandStillBeforeAndBehindTheirKeys) {
 
 // Most of these keys are a little later in single precision than the frames they are meant for.
 TEST(Tracks, StepsOfAFileAreNoFrameLate) {
-  std::vector<double> times, values;
+  Values times, values;
   for (int frame = 0; frame < 48; ++frame) {
     times.push_back(double{static_cast<float>(frame / 24.0)});
     values.push_back(frame);

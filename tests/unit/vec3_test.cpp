@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 
 namespace whit {
 namespace {
@@ -34,8 +34,7 @@ TEST(Normalized, PowersOfTwoLeaveTheBitsAlone) {
 
 TEST(Normalized, FallsBackWhereThereIsNoDirection) {
   const Vec3f fallback{0, 0, 1};
-  const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
-  for (const Vec3f& v : {Vec3f{}, {1, nan, 0}, {nan, 1, 0}, {1, inf, 0}}) {
+  for (const Vec3f& v : {Vec3f{}, {1, NAN, 0}, {NAN, 1, 0}, {1, INFINITY, 0}}) {
     EXPECT_EQ(normalized(v, fallback), fallback) << v.x << " " << v.y;
   }
   EXPECT_EQ(normalized(Vec3f{}), Vec3f{});

@@ -23,6 +23,8 @@
 namespace whit::test {
 namespace {
 
+using Job = std::function<void(int)>;
+
 TEST(WorkerPool, EveryWorkerRunsOnceARun) {
   for (const int workers : {1, 2, 3, 8}) {
     WorkerPool pool(workers);
@@ -69,7 +71,7 @@ TEST(WorkerPool, AForkedChildStartsWorkersOfItsOwn) {
   if (kSanitized) GTEST_SKIP() << "sanitizers allow no threads in a forked child";
   WorkerPool pool(3);
   std::vector<int> calls(3);
-  const std::function<void(int)> job = [&](int w) { ++calls[w]; };
+  const Job job = [&](int w) { ++calls[w]; };
   pool.run(job);
   EXPECT_EQ(statusOfChild([&] {
               WorkerPool copy(2);  // the parent's pool is left alone while others are used
@@ -86,7 +88,7 @@ TEST(WorkerPool, AForkedChildStartsWorkersOfItsOwn) {
 TEST(WorkerPool, AForkedChildCannotFinishTheWorkOfItsParent) {
   if (kSanitized) GTEST_SKIP() << "sanitizers allow no threads in a forked child";
   auto pool = std::make_unique<WorkerPool>(2);
-  const std::function<void(int)> job = [](int) {};
+  const Job job = [](int) {};
 
   pool->begin(job);
   EXPECT_EQ(statusOfChild([&] {
@@ -108,7 +110,7 @@ TEST(WorkerPool, TheCallerMayWorkBetweenBeginAndFinish) {
     for (int round = 0; round < 20; ++round) {
       std::vector<int> calls(workers);
       std::atomic<bool> ready{false};
-      const std::function<void(int)> job = [&](int worker) {
+      const Job job = [&](int worker) {
         while (!ready) std::this_thread::yield();
         ++calls[worker];
       };
