@@ -84,8 +84,12 @@ sweep() { rm -f "$1"/.whit-*.tmp; }
 
 case $what in
   frames)
-    begin "$(dirname "$out")"
     first=${range%%..*} last=${range##*..}
+    if ! [[ $range =~ ^[0-9]+(\.\.[0-9]+)?$ ]] || ((10#$last < 10#$first)); then
+      echo "$0: $range: expected a frame number, or first..last as 0..47" >&2
+      exit 2
+    fi
+    begin "$(dirname "$out")"
     images=$((10#$last - 10#$first + 1))
     step=$(chunk 8 "$images")
     items=()

@@ -62,6 +62,12 @@ void addNamedChannels(RenderJob& job) {
   kept = kept.with(named);
 }
 
+void checkExr(const RenderJob& job) {
+  const auto isExr = [](const std::string& output) { return extensionOf(output) == ".exr"; };
+  refuseIf(job.exr != ExrStorage::zip && std::ranges::none_of(job.outputs, isExr),
+           "--exr needs an output that ends in .exr");
+}
+
 void checkFilm(const RenderJob& job) {
   if (!job.makesFilm()) return;
   refuseIf(std::ranges::count_if(job.outputs, isFilm) > 1, "-o: one film at a time");
@@ -208,6 +214,7 @@ void checkJob(RenderJob& job) {
   checkBudget(job);
   addNamedChannels(job);
   checkBackground(job);
+  checkExr(job);
   checkFilm(job);
   checkStandardOutput(job);
 

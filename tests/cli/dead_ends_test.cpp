@@ -246,6 +246,7 @@ constexpr DeadEnd kDeadEnds[] = {
     {"render whitted -o x.depht.png", "no channel is called 'depht'; did you mean 'depth'?"},
     {"render whitted -o x.Normals.##.exr --frames 0..1", "did you mean 'normal'?"},
     {"render whitted -o x.exr --channels depth --exr dwaa", "dwaa is lossy for channels"},
+    {"render whitted -o x.png --exr half", "--exr needs an output that ends in .exr"},
     {"render whitted -o x.exr --channels deepth", "did you mean 'depth'?"},
     {"turntable whitted", "expected a file to write"},
     {"turntable whitted -o x.gif", "ends in .exr or .png or .jpg or .jpeg or .mp4"},

@@ -89,6 +89,14 @@ test $status = 2
 grep -q "expected a name that ends in .exr" log
 test ! -e bands.png.parts
 
+# Frames that run backwards, or that are no numbers, are refused as well.
+for range in 5..3 a..b; do
+  status=0
+  WHIT=$whit "$farm/parallel.sh" frames whitted "backwards-####.exr" $range 2>log || status=$?
+  test $status = 2
+  grep -q "$range: expected a frame number" log
+done
+
 # Every job that runs at a time has something to do, where there is no CHUNK; and whoever says
 # --json is told that there is no one file.
 recorder=$work/bin

@@ -78,6 +78,7 @@ class Messages(unittest.TestCase):
                 (3, "^max_memory_gb: expected", {"max_memory_gb": -1}),
                 (3, "^max_memory_gb", {"max_memory_gb": float("nan")}),
                 (3, "^threads: expected a whole", {"threads": -1}),
+                (3, "^movable: expected a list", {"movable": "/lights/0"}),
                 (2, "^sphere_segments exp", {"sphere_segments": 2}),
                 (5, ".", {"max_memory_gb": 1e-5}),
                 (130, "progress", {"progress": lambda *_: False})):

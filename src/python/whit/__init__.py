@@ -256,6 +256,8 @@ class Scene:
             _arrays._fail("max_memory_gb", "a number from 0", str(max_memory_gb))
         if threads < 0:
             _arrays._fail("threads", "a whole number from 0", str(threads))
+        if isinstance(movable, str):
+            _arrays._fail("movable", "a list of JSON pointers", f"one text, {movable!r}")
         description = Description(name)
         texts = [f"{pointer}={description.text(value, pointer)}"
                  for pointer, value in (settings or {}).items()]
