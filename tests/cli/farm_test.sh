@@ -42,8 +42,8 @@ for _ in $(seq 20); do
     kill -0 $run 2>/dev/null || { cat log; exit 1; }
     sleep 0.01
   done
-  # No other program has this folder as its own. No child looks for the workers, because one for each
-  # process would take a busy machine longer than the workers have frames.
+  # No other program has this folder as its own. No child looks for the workers, because starting one
+  # for each process may take a busy machine longer than the workers take.
   for process in /proc/[0-9]*; do
     if ! [[ $process/exe -ef $whit && $process/cwd -ef $work ]]; then continue; fi
     process=${process#/proc/}

@@ -45,7 +45,8 @@ inline constexpr double kTableError = 0.005;
 // Enough wrong pixels of a picture: the rest of them are not looked at more closely.
 inline constexpr int kEnoughWrong = 30;
 
-// Returns the number that the variable of the environment asks for, which is at least 1.
+// Returns the whole number that the variable of the environment asks for, which is at least 1, or
+// else the preset.
 inline int numberOf(const char* variable, int preset) {
   const char* asked = std::getenv(variable);
   return asked == nullptr ? preset : std::max(1, std::atoi(asked));

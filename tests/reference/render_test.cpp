@@ -27,7 +27,8 @@ Scene stillLife(int power = 0) {
 
   builder.description.lights = {lightAt({2, 4, 3}, 20)};
   builder.lookFrom({0, 2, 5});
-  return repaired(scaled(builder.describe(), power));
+  Warnings strict(true);
+  return repaired(scaled(builder.describe(), power), &strict);
 }
 
 // Counts the reports, which come from one thread.

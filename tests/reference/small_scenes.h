@@ -24,7 +24,8 @@ inline Light sun(const Vec3f& direction, float irradiance) {
   return light;
 }
 
-// Returns a light 2 above the origin that shines down between these angles to the vertical.
+// Returns a light of intensity 8, 2 above the origin, that shines down: fully up to the inner angle
+// to the vertical, and not beyond the outer one.
 inline Light spotOf(float inner, float outer) {
   Light light = lightAt({0, 2, 0}, 8);
   light.kind = Light::Kind::spot;

@@ -22,6 +22,7 @@ TEST(FailureOf, GivesEachExceptionItsStatus) {
   };
   const Row rows[] = {
       {std::make_shared<Error>(ExitStatus::usage, "wrong word"), ExitStatus::usage, "wrong word"},
+      {std::make_shared<Error>(ExitStatus::io, "no file"), ExitStatus::io, "no file"},
       {std::make_shared<std::bad_alloc>(), ExitStatus::limit, "out of memory"},
       {std::make_shared<std::bad_array_new_length>(), ExitStatus::limit, "out of memory"},
       {system(std::errc::resource_unavailable_try_again), ExitStatus::limit,
