@@ -18,6 +18,8 @@ namespace {
 
 constexpr const char* kFilm = ".mp4";
 
+bool isExr(const std::string& output) { return extensionOf(output) == ".exr"; }
+
 void checkStandardOutput(const RenderJob& job) {
   if (!job.toStandardOutput()) return;
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
@@ -44,11 +46,10 @@ void addNamedChannels(RenderJob& job) {
   ChannelSet named;
   bool holdsAll = false;
   for (const std::string& output : job.outputs) {
-    const bool isExr = extensionOf(output) == ".exr";
     const std::optional<Channel> channel = channelNamedBy(output, kept);
     if (channel) named = named.with(*channel);
-    holdsAll |= isExr && !channel;
-    if (channel && needsFloats(*channel) && !isExr) {
+    holdsAll |= isExr(output) && !channel;
+    if (channel && needsFloats(*channel) && !isExr(output)) {
       throwUsage("'" + output + "': " + namesOf({*channel}) +
                  "s do not fit into a PNG: write an EXR");
     }
@@ -63,7 +64,6 @@ void addNamedChannels(RenderJob& job) {
 }
 
 void checkExr(const RenderJob& job) {
-  const auto isExr = [](const std::string& output) { return extensionOf(output) == ".exr"; };
   refuseIf(job.exr != ExrStorage::zip && std::ranges::none_of(job.outputs, isExr),
            "--exr needs an output that ends in .exr");
 }
