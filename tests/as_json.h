@@ -11,4 +11,9 @@ inline std::string asJson(std::string json) {
   return json;
 }
 
+// Returns what a test saves under this name: only scenes and glTF files may have ' in place of ".
+inline std::string savedText(const std::string& name, const std::string& text) {
+  return name.ends_with(".json") || name.ends_with(".gltf") ? asJson(text) : text;
+}
+
 }  // namespace whit

@@ -46,8 +46,7 @@ class TinySceneTest : public testing::Test {
  protected:
   // Scenes and glTF files may have ' in place of ".
   void save(const std::string& name, const std::string& text) const {
-    const bool isJson = name.ends_with(".json") || name.ends_with(".gltf");
-    std::ofstream(folder_ / name, std::ios::binary) << (isJson ? asJson(text) : text);
+    std::ofstream(folder_ / name, std::ios::binary) << savedText(name, text);
   }
   // Saves the tiny scene with other words in the place of some.
   void saveTiny(const std::string& name, const std::string& words,

@@ -47,7 +47,7 @@ std::string writeSheets(const TemporaryFolder& folder) {
   }
   writePng(folder / "dots.png", image, {});
 
-  const std::string red =
+  const std::string dotted =
       "'materials': {'*': {'diffuse': [0.75, 0.5, 0.25], 'diffuseMap': 'dots'}}";
   std::ofstream(folder / "sheets.json") << asJson(
       "{'whit': 1, 'cameras': {'front': {'eye': [0.5, 2, 4], 'at': [0, 0, 0]}},"
@@ -55,7 +55,7 @@ std::string writeSheets(const TemporaryFolder& folder) {
       "'sky': {'color': [0.1, 0.2, 0.3]}, 'ambient': {'fromSky': 0.5},"
       "'textures': {'dots': {'image': 'dots.png'}}, 'scene': ["
       "{'model': 'sheet.obj', " +
-      red + "}, {'model': 'sheet.obj', " + red +
+      dotted + "}, {'model': 'sheet.obj', " + dotted +
       ", 'transform': {'matrix': [0.5, 0, 0, 0, 0, 0.5, 0, 1, 0, 0, 0.5, 0]}}]}");
   return folder / "sheets.json";
 }

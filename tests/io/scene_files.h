@@ -120,8 +120,7 @@ class SceneFileTest : public testing::Test {
   // and glTF files may have ' in place of ".
   std::string save(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(root_ + name).parent_path());
-    const bool isJson = name.ends_with(".json") || name.ends_with(".gltf");
-    std::ofstream(root_ + name, std::ios::binary) << (isJson ? asJson(text) : text);
+    std::ofstream(root_ + name, std::ios::binary) << savedText(name, text);
     return root_ + name;
   }
 

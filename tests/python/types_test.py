@@ -13,14 +13,15 @@ import whit
 from examples_test import examples
 from samples import temporary_folder
 
-MISTAKES = ("import whit\n"
-            "scene = whit.Scene('whitted')\n"
-            "scene.render(spp='many')\n"
-            "scene.render(camera=scene)\n"
-            "scene.camera().fow\n"
-            "scene.closest([0, 0, 0], [0, 0, 1]).hits\n"
-            "whit.Meshes([])\n"
-            "scene.update_mesh(3, [])\n")
+MISTAKES = """import whit
+scene = whit.Scene("whitted")
+scene.render(spp="many")
+scene.render(camera=scene)
+scene.camera().fow
+scene.closest([0, 0, 0], [0, 0, 1]).hits
+whit.Meshes([])
+scene.update_mesh(3, [])
+"""
 
 
 def check(**programs):
